@@ -1,0 +1,167 @@
+#include "analysis/answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <map>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool isDataFile(const fs::directory_entry& entry) {
+    const fs::path& path = entry.path();
+    return entry.is_regular_file() && path.extension() == ".csv" &&
+           !path.filename().string().starts_with('.'); // a file still being written
+}
+
+std::vector<fs::path> filesOf(const fs::path& given) {
+    if (!fs::exists(given))
+        throw Error({given.string(), 0, 0, {}}, "expected a study's folder or a CSV file, found "
+                                                "nothing of this name");
+    if (!fs::is_directory(given))
+        return {given};
+    const fs::path folder = fs::is_directory(given / "data") ? given / "data" : given;
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (isDataFile(entry))
+            files.push_back(entry.path());
+    if (files.empty())
+        throw Error({folder.string(), 0, 0, {}}, "expected CSV files of responses, found none");
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+// Each file once, even if it is given by name and again by its folder.
+std::vector<fs::path> filesOf(std::span<const fs::path> data) {
+    std::vector<fs::path> files, known;
+    for (const fs::path& given : data)
+        for (const fs::path& file : filesOf(given)) {
+            const fs::path canonical = fs::canonical(file);
+            if (std::find(known.begin(), known.end(), canonical) != known.end())
+                continue;
+            known.push_back(canonical);
+            files.push_back(file);
+        }
+    return files;
+}
+
+std::string at(const Answer& answer) {
+    return fmt::format("{}:{}", answer.place.file, answer.place.line);
+}
+
+[[noreturn]] void refuse(const Answer& answer, std::string_view column, const std::string& why) {
+    Place place = answer.place;
+    place.key = column;
+    throw Error(place, why);
+}
+
+void removeSimulated(std::vector<Answer>& answers, SimulatedRows rule, LeftOut& leftOut) {
+    const auto isSimulated = [](const Answer& answer) { return answer.row.simulated; };
+    const auto real = std::find_if_not(answers.begin(), answers.end(), isSimulated);
+    const auto simulated = std::find_if(answers.begin(), answers.end(), isSimulated);
+    if (rule == SimulatedRows::refuse && real != answers.end() && simulated != answers.end())
+        refuse(*simulated, "simulated",
+               fmt::format("a simulated row among real ones ({}); --simulated exclude leaves such "
+                           "rows out, only counts nothing else, include pools them",
+                           at(*real)));
+    if (rule == SimulatedRows::exclude)
+        leftOut.simulated = static_cast<int>(std::erase_if(answers, isSimulated));
+    if (rule == SimulatedRows::only)
+        leftOut.real = static_cast<int>(std::erase_if(answers, std::not_fn(isSimulated)));
+}
+
+// Rows of one group must agree in the field.
+template <auto field>
+void requireOne(const std::vector<Answer>& answers, std::string_view column,
+                std::string_view option, std::string (*group)(const Response&)) {
+    std::map<std::string, const Answer*> firstOf;
+    for (const Answer& answer : answers) {
+        const Answer& first = *firstOf.try_emplace(group(answer.row), &answer).first->second;
+        if (answer.row.*field != first.row.*field)
+            refuse(answer, column,
+                   fmt::format("expected \"{}\" as in {}, found \"{}\"; {} pools them",
+                               first.row.*field, at(first), answer.row.*field, option));
+    }
+}
+
+using Key = std::vector<std::string>;
+
+// Leaves out each row whose key an earlier row has, or refuses it.
+int removeRepeated(std::vector<Answer>& answers, std::string_view column, bool allowed,
+                   Key (*key)(const Response&)) {
+    std::map<Key, std::string> seen;
+    const auto repeated = [&](const Answer& answer) {
+        const auto [first, isNew] = seen.try_emplace(key(answer.row), at(answer));
+        if (!isNew && !allowed)
+            refuse(answer, column,
+                   fmt::format("{} was answered before, in {}; --allow-duplicates counts the "
+                               "first of such rows and leaves out the others",
+                               fmt::join(first->first, " "), first->second));
+        return !isNew;
+    };
+    std::vector<Answer> kept;
+    std::copy_if(answers.begin(), answers.end(), std::back_inserter(kept), std::not_fn(repeated));
+    const auto removed = answers.size() - kept.size();
+    answers = std::move(kept);
+    return static_cast<int>(removed);
+}
+
+int removeDuplicates(std::vector<Answer>& answers, bool allowed) {
+    const auto rowId = [](const Response& row) { return Key{row.studyId, "row", row.rowId}; };
+    const auto trial = [](const Response& row) {
+        return Key{row.studyId,   "participant", row.participantId, "session",
+                   row.sessionId, row.trialKind, "condition",       row.conditionId,
+                   "repeat",      std::to_string(row.repeatIndex)};
+    };
+    return removeRepeated(answers, "row_id", allowed, rowId) +
+           removeRepeated(answers, "condition_id", allowed, trial);
+}
+
+int removeKind(std::vector<Answer>& answers, std::string_view kind) {
+    return static_cast<int>(
+        std::erase_if(answers, [&](const Answer& a) { return a.row.trialKind == kind; }));
+}
+
+Answers readAll(const std::vector<fs::path>& files, bool lenient) {
+    Answers answers;
+    for (const fs::path& file : files) {
+        ResponseFile read = readResponses(file, lenient);
+        for (std::size_t i = 0; i < read.rows.size(); ++i)
+            answers.counted.push_back(
+                {std::move(read.rows[i]), {file.string(), read.lines[i], 0, {}}});
+        answers.bad.insert(answers.bad.end(), read.bad.begin(), read.bad.end());
+        ++answers.files;
+    }
+    return answers;
+}
+
+} // namespace
+
+Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules) {
+    Answers answers = readAll(filesOf(data), rules.lenient);
+    std::vector<Answer>& rows = answers.counted;
+    removeSimulated(rows, rules.simulated, answers.leftOut);
+    if (!rules.mixedStudies)
+        requireOne<&Response::studyId>(rows, "study_id", "--allow-mixed-studies",
+                                       [](const Response&) { return std::string(); });
+    if (!rules.mixedProtocols)
+        requireOne<&Response::protocolSha256>(rows, "protocol_sha256", "--allow-mixed-protocols",
+                                              [](const Response& row) { return row.studyId; });
+    answers.leftOut.duplicates = removeDuplicates(rows, rules.duplicates);
+    answers.leftOut.practice = removeKind(rows, "practice");
+    answers.leftOut.catches = removeKind(rows, "catch");
+    if (!rules.interrupted)
+        answers.leftOut.interrupted = static_cast<int>(
+            std::erase_if(rows, [](const Answer& a) { return a.row.interrupted; }));
+    if (rows.empty())
+        throw Error(fmt::format("expected answers to main trials, found none in {} file(s)",
+                                answers.files));
+    return answers;
+}
+
+} // namespace obscura

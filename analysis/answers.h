@@ -1,0 +1,50 @@
+#pragma once
+
+#include "protocols/responses.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// Gathers the rows of a study and makes sure that they belong together. Whatever does not is an
+// Error naming two rows that disagree, unless the rules ask for it; nothing is left out in silence.
+
+struct Answer {
+    Response row;
+    Place place; // file and line
+};
+
+enum class SimulatedRows { refuse, exclude, only, include };
+
+struct AnswerRules {
+    // Rows of programs among rows of people. `refuse` accepts files that are all of one kind.
+    SimulatedRows simulated = SimulatedRows::refuse;
+    bool mixedStudies = false;   // pool several study_id
+    bool mixedProtocols = false; // pool several protocol_sha256 of one study
+    bool duplicates = false;     // count the first of rows for one trial, leave out the others
+    // A trial during which the window lost the screen was still answered: it is counted and
+    // reported, unless this is false.
+    bool interrupted = true;
+    bool lenient = false; // skip rows that cannot be read
+};
+
+struct LeftOut {
+    int practice = 0, catches = 0, interrupted = 0, duplicates = 0;
+    int simulated = 0, real = 0;
+};
+
+struct Answers {
+    std::vector<Answer> counted; // main trials, in the order of files and lines
+    LeftOut leftOut;
+    std::vector<BadRow> bad; // skipped because of `lenient`
+    int files = 0;
+};
+
+// `data`: CSV files, or folders of them (a study's folder with its data/ in it). At least one row
+// must be left to count.
+Answers collectAnswers(std::span<const std::filesystem::path> data, const AnswerRules& rules);
+
+} // namespace obscura

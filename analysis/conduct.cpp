@@ -1,0 +1,238 @@
+#include "analysis/conduct.h"
+
+#include "analysis/frequencies.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <tuple>
+
+namespace obscura {
+
+namespace {
+
+template <auto field>
+Spread spreadOf(const std::vector<Answer>& answers) {
+    std::vector<double> values;
+    for (const Answer& answer : answers)
+        values.push_back(answer.row.*field);
+    return spread(std::move(values));
+}
+
+void countPeople(const std::vector<Answer>& answers, Conduct& conduct) {
+    using Person = std::pair<std::string, std::string>;
+    std::map<Person, std::map<std::string, int>> votes;
+    for (const auto& [row, place] : answers) {
+        const int given = ++votes[{row.studyId, row.participantId}][row.conditionId];
+        conduct.mostVotes = std::max(conduct.mostVotes, given);
+    }
+    conduct.participants = static_cast<int>(votes.size());
+}
+
+void countSessions(const std::vector<Answer>& answers, Conduct& conduct) {
+    struct Session {
+        const Response* row = nullptr;
+        int trials = 0;
+    };
+    std::map<std::tuple<std::string, std::string, std::string>, Session> sessions;
+    int longest = 0;
+    for (const auto& [row, place] : answers) {
+        Session& session = sessions[{row.studyId, row.participantId, row.sessionId}];
+        session.row = &row;
+        longest = std::max(longest, ++session.trials);
+    }
+    conduct.sessions = static_cast<int>(sessions.size());
+    for (const auto& [id, session] : sessions) {
+        auto& [base, exchanged] = conduct.squares[session.row->squareId];
+        ++(session.row->pairsReversed ? exchanged : base);
+        ++conduct.slots[session.row->slotId];
+        conduct.incomplete += session.trials < longest;
+    }
+}
+
+void countTrial(const Response& row, Conduct& conduct) {
+    conduct.simulated += row.simulated;
+    conduct.interrupted += row.interrupted;
+    conduct.secondChosen += row.chosenPosition == 2;
+    auto& [bFirst, bSecond] = conduct.shown[row.conditionId];
+    ++(row.firstIs == "b" ? bFirst : bSecond);
+    ++conduct.timestampSources[row.timestampSource];
+    conduct.wrongMasks += row.maskFramesShown != row.maskFramesPlanned;
+    conduct.missedFrames += row.missedFrames > 0;
+    conduct.earlyPresses += row.earlyPressesInMask > 0;
+}
+
+void noteProvenance(const std::vector<Answer>& answers, Conduct& conduct) {
+    std::map<std::string, std::set<std::string>> images;
+    for (const auto& [row, place] : answers) {
+        const bool aFirst = row.firstIs == "a";
+        images[row.conditionId].insert((aFirst ? row.sha256First : row.sha256Second) +
+                                       (aFirst ? row.sha256Second : row.sha256First));
+        conduct.protocols.insert(row.protocolSha256);
+        conduct.programs.insert(fmt::format("{} ({})", row.appVersion, row.gitCommit));
+        conduct.machines.insert(row.machineId);
+    }
+    for (const auto& [condition, versions] : images)
+        if (versions.size() > 1)
+            conduct.changedImages.insert(condition);
+}
+
+template <auto field>
+auto rangeOf(const std::vector<Answer>& answers) {
+    const auto [least, most] = std::minmax_element(
+        answers.begin(), answers.end(),
+        [](const Answer& x, const Answer& y) { return x.row.*field < y.row.*field; });
+    return std::pair(least->row.*field, most->row.*field);
+}
+
+} // namespace
+
+Spread spread(std::vector<double> values) {
+    assert(!values.empty());
+    std::sort(values.begin(), values.end());
+    const auto percentile = [&](double p) {
+        const double at = p * static_cast<double>(values.size() - 1);
+        const auto below = static_cast<std::size_t>(at);
+        const std::size_t above = std::min(below + 1, values.size() - 1);
+        return std::lerp(values[below], values[above], at - static_cast<double>(below));
+    };
+    return {percentile(0.05), percentile(0.5), percentile(0.95)};
+}
+
+Conduct conductOf(const Answers& answers) {
+    const std::vector<Answer>& counted = answers.counted;
+    Conduct conduct;
+    conduct.files = answers.files;
+    conduct.trials = static_cast<int>(counted.size());
+    conduct.leftOut = answers.leftOut;
+    conduct.bad = answers.bad;
+    countPeople(counted, conduct);
+    countSessions(counted, conduct);
+    for (const Answer& answer : counted)
+        countTrial(answer.row, conduct);
+    noteProvenance(counted, conduct);
+    conduct.maskMs = spreadOf<&Response::maskMs>(counted);
+    conduct.view1Ms = spreadOf<&Response::view1Ms>(counted);
+    conduct.view2Ms = spreadOf<&Response::view2Ms>(counted);
+    conduct.decisionMs = spreadOf<&Response::decisionRtMs>(counted);
+    std::tie(conduct.slowestHz, conduct.fastestHz) = rangeOf<&Response::refreshHz>(counted);
+    std::tie(conduct.firstTime, conduct.lastTime) = rangeOf<&Response::wallTimeUtc>(counted);
+    return conduct;
+}
+
+namespace {
+
+std::string people(const Conduct& c) {
+    std::string text = fmt::format("{} in {} sessions, {} to {}", c.participants, c.sessions,
+                                   c.firstTime, c.lastTime);
+    if (c.incomplete > 0)
+        text += fmt::format("; {} sessions have fewer trials than the longest", c.incomplete);
+    if (c.simulated > 0)
+        text += fmt::format("; {} of {} trials were answered by a program", c.simulated, c.trials);
+    return text;
+}
+
+std::string trials(const Conduct& c) {
+    std::string text = fmt::format("{} main trials from {} files", c.trials, c.files);
+    if (c.interrupted > 0)
+        text += fmt::format(", {} of them interrupted (the window lost the screen)", c.interrupted);
+    const LeftOut& out = c.leftOut;
+    const std::pair<int, const char*> parts[] = {
+        {out.practice, "practice"},       {out.catches, "catch"},
+        {out.interrupted, "interrupted"}, {out.duplicates, "answered twice"},
+        {out.simulated, "simulated"},     {out.real, "not simulated"},
+        {static_cast<int>(c.bad.size()), "unreadable"}};
+    std::string list;
+    for (const auto& [number, kind] : parts)
+        if (number > 0)
+            list += fmt::format("{}{} {}", list.empty() ? "" : ", ", number, kind);
+    return text + (list.empty() ? "; nothing left out" : "; left out: " + list);
+}
+
+std::string conditionOrder(const Conduct& c) {
+    std::string text;
+    for (const auto& [square, sessions] : c.squares)
+        text += fmt::format("square {}: {} sessions in base order, {} exchanged; ", square,
+                            sessions.base, sessions.exchanged);
+    std::vector<int> shared;
+    for (const auto& [slot, sessions] : c.slots)
+        if (sessions > 1)
+            shared.push_back(slot);
+    return text + (shared.empty() ? "no slot used twice"
+                                  : fmt::format("slots used more than once: {}",
+                                                fmt::join(shared, ", ")));
+}
+
+std::string imageOrder(const Conduct& c) {
+    double least = 1, most = 0;
+    for (const auto& [condition, shown] : c.shown) {
+        const double share = static_cast<double>(shown.bSecond) / (shown.bFirst + shown.bSecond);
+        least = std::min(least, share);
+        most = std::max(most, share);
+    }
+    return fmt::format("b was the second image in {:.0f} to {:.0f} % of each condition's trials",
+                       100 * least, 100 * most);
+}
+
+std::string positionBias(const Conduct& c) {
+    const auto [low, high] = wilson(c.secondChosen, c.trials);
+    return fmt::format("{} of {} ({:.0f} %, 95 % interval {:.0f}–{:.0f} % if votes of one "
+                       "person were independent)",
+                       c.secondChosen, c.trials, 100.0 * c.secondChosen / c.trials, 100 * low,
+                       100 * high);
+}
+
+std::string seconds(const Spread& ms) {
+    return fmt::format("{:.2f} s ({:.2f}–{:.2f})", ms.median / 1000, ms.low / 1000,
+                       ms.high / 1000);
+}
+
+std::string times(const Conduct& c) {
+    return fmt::format("image 1 {}, image 2 {}, decision {}", seconds(c.view1Ms),
+                       seconds(c.view2Ms), seconds(c.decisionMs));
+}
+
+std::string mask(const Conduct& c) {
+    return fmt::format("{}; {} of {} trials showed other than the planned number of refreshes, "
+                       "{} had a missed frame; a key was pressed and ignored in {}",
+                       seconds(c.maskMs), c.wrongMasks, c.trials, c.missedFrames, c.earlyPresses);
+}
+
+std::string display(const Conduct& c) {
+    std::string text = c.slowestHz == c.fastestHz
+                           ? fmt::format("{:.2f} Hz", c.slowestHz)
+                           : fmt::format("{:.2f}–{:.2f} Hz", c.slowestHz, c.fastestHz);
+    for (const auto& [source, number] : c.timestampSources)
+        text += fmt::format("; timestamps from \"{}\" in {} trials", source, number);
+    if (c.timestampSources.contains("none"))
+        text += " (no vertical blank: not fit for claims about timing)";
+    return text;
+}
+
+std::string images(const Conduct& c) {
+    if (c.changedImages.empty())
+        return "each condition showed the same two files throughout";
+    return fmt::format("other files in some trials than in others: condition {}",
+                       fmt::join(c.changedImages, ", "));
+}
+
+} // namespace
+
+std::vector<Fact> factsOf(const Conduct& conduct) {
+    return {{"Participants", people(conduct)},
+            {"Trials", trials(conduct)},
+            {"Order of conditions", conditionOrder(conduct)},
+            {"Order within pairs", imageOrder(conduct)},
+            {"Second image chosen", positionBias(conduct)},
+            {"Median time (5–95 %)", times(conduct)},
+            {"Grey mask, median (5–95 %)", mask(conduct)},
+            {"Display", display(conduct)},
+            {"Images", images(conduct)},
+            {"Machine", fmt::format("{}", fmt::join(conduct.machines, ", "))},
+            {"Presented by", fmt::format("obscura-experiment {}", fmt::join(conduct.programs, ", "))},
+            {"Protocol, SHA-256", fmt::format("{}", fmt::join(conduct.protocols, ", "))}};
+}
+
+} // namespace obscura

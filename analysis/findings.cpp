@@ -1,0 +1,165 @@
+#include "analysis/findings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace obscura {
+
+namespace {
+
+int totalVotes(const Findings& findings) {
+    int total = 0;
+    for (const Tally& tally : findings.tallies)
+        total += tally.votes.total();
+    return total;
+}
+
+// The tallies that have votes and for which `wanted` holds.
+template <typename Wanted>
+std::vector<Tally> select(const Findings& findings, Wanted wanted) {
+    std::vector<Tally> selected;
+    for (const Tally& tally : findings.tallies)
+        if (tally.votes.total() > 0 && wanted(tally))
+            selected.push_back(tally);
+    return selected;
+}
+
+std::vector<Tally> tested(const Findings& findings) {
+    return select(findings, [](const Tally&) { return true; });
+}
+
+std::vector<Tally> different(const Findings& findings) {
+    return select(findings, [](const Tally& tally) { return differs(tally.votes); });
+}
+
+std::vector<Tally> undecided(const Findings& findings) {
+    return select(findings, [](const Tally& tally) { return !differs(tally.votes); });
+}
+
+std::string place(const Tally& tally) { return fmt::format("{}, {}", tally.scene, tally.level); }
+
+template <typename Phrase>
+std::string listOf(const std::vector<Tally>& tallies, Phrase phrase) {
+    std::string text;
+    for (const Tally& tally : tallies)
+        text += (text.empty() ? "" : "; ") + phrase(tally);
+    return text;
+}
+
+// "25 of 36 chose Blizzard24 over None (sponza, high)", from the side of the majority.
+std::string preference(const Tally& tally) {
+    const auto [a, b] = tally.votes;
+    return fmt::format("{} of {} chose {} over {} ({})", std::max(a, b), a + b,
+                       b > a ? tally.techniqueB : tally.techniqueA,
+                       b > a ? tally.techniqueA : tally.techniqueB, place(tally));
+}
+
+std::string extent(const Findings& findings) {
+    const int votes = totalVotes(findings);
+    const std::size_t conditions = findings.tallies.size();
+    if (!findings.conduct)
+        return fmt::format("The published counts hold {} votes on {} conditions.", votes,
+                           conditions);
+    return fmt::format("{} {} gave {} votes on {} conditions.", findings.conduct->participants,
+                       findings.conduct->simulated == votes ? "simulated participants"
+                                                            : "participants",
+                       votes, conditions);
+}
+
+std::string differences(const Findings& findings) {
+    const auto found = different(findings);
+    const std::string list = found.empty() ? "" : ": " + listOf(found, preference);
+    return fmt::format("{} of {} conditions differ from an even split at .05 (exact binomial "
+                       "test, uncorrected){}.",
+                       found.size(), tested(findings).size(), list);
+}
+
+// The approximation rejects more often than it says; a reader who compares must know where.
+std::string disagreement(const Findings& findings) {
+    const auto split = select(findings, [](const Tally& tally) {
+        return !differs(tally.votes) && chiSquareP(chiSquare(tally.votes)) < significance;
+    });
+    if (split.empty())
+        return {};
+    return fmt::format("By chi-square alone, an approximation that is too lenient here, one "
+                       "would add: {}.",
+                       listOf(split, preference));
+}
+
+std::string multiplicity(const Findings& findings) {
+    const std::size_t tests = tested(findings).size();
+    if (tests < 2)
+        return {};
+    return fmt::format("{} tests at .05 give up to {:.2g} such differences on average where "
+                       "everybody guesses, so one small p among them is weak evidence.",
+                       tests, static_cast<double>(tests) * significance);
+}
+
+std::string notEquivalence(const Findings& findings) {
+    const auto others = undecided(findings);
+    if (others.empty())
+        return {};
+    Interval widest{1, 0};
+    for (const Tally& tally : others) {
+        const Interval interval = wilson(tally.votes.b, tally.votes.total());
+        widest.low = std::min(widest.low, interval.low);
+        widest.high = std::max(widest.high, interval.high);
+    }
+    return fmt::format("For the other {} the data do not decide: a large p, even 1, does not show "
+                       "that two images look equally real, and the intervals leave room for "
+                       "shares from {:.0f} to {:.0f} %.",
+                       others.size(), 100 * widest.low, 100 * widest.high);
+}
+
+std::string repeatedVotes(const Findings& findings) {
+    if (!findings.conduct || findings.conduct->mostVotes < 2)
+        return {};
+    return fmt::format("Caution: some participants voted up to {} times on one condition; the "
+                       "tests take every vote for another person's, so their p are too small.",
+                       findings.conduct->mostVotes);
+}
+
+std::string missing(const Findings& findings) {
+    std::vector<Tally> empty;
+    for (const Tally& tally : findings.tallies)
+        if (tally.votes.total() == 0)
+            empty.push_back(tally);
+    if (empty.empty())
+        return {};
+    return fmt::format("No votes yet: {}.",
+                       listOf(empty, [](const Tally& tally) { return tally.condition; }));
+}
+
+} // namespace
+
+bool differs(const Votes& votes) { return votes.total() > 0 && exactP(votes) < significance; }
+
+std::string sourceOf(const Findings& findings) {
+    if (!findings.conduct)
+        return "published counts";
+    if (findings.conduct->simulated == 0)
+        return "participants";
+    return findings.conduct->simulated == findings.conduct->trials ? "SIMULATED"
+                                                                   : "partly SIMULATED";
+}
+
+std::string stampOf(const Findings& findings) {
+    if (!findings.conduct || findings.conduct->simulated == 0)
+        return {};
+    return fmt::format("SIMULATED DATA: {} of {} votes were cast by a program. They say nothing "
+                       "about people.",
+                       findings.conduct->simulated, findings.conduct->trials);
+}
+
+std::vector<std::string> summaryOf(const Findings& findings) {
+    std::vector<std::string> sentences;
+    for (const std::string& sentence :
+         {extent(findings), differences(findings), disagreement(findings), multiplicity(findings),
+          notEquivalence(findings), repeatedVotes(findings), missing(findings)})
+        if (!sentence.empty())
+            sentences.push_back(sentence);
+    return sentences;
+}
+
+} // namespace obscura

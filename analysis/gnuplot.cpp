@@ -1,0 +1,95 @@
+#include "analysis/gnuplot.h"
+
+#include "analysis/html.h"
+#include "protocols/error.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <memory>
+#include <string_view>
+
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace obscura {
+
+namespace {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using Scratch = std::unique_ptr<std::FILE, CloseFile>;
+
+// A nameless file: unlike a pipe it cannot block either side, and leaves nothing behind.
+Scratch scratch(std::string_view content = {}) {
+    Scratch file(std::tmpfile());
+    if (!file || std::fwrite(content.data(), 1, content.size(), file.get()) != content.size())
+        throw Error(fmt::format("no temporary file for gnuplot: {}", std::strerror(errno)));
+    std::rewind(file.get());
+    return file;
+}
+
+std::string contentOf(const Scratch& file) {
+    std::string content;
+    char buffer[65536];
+    std::rewind(file.get());
+    while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, file.get()))
+        content.append(buffer, count);
+    return content;
+}
+
+// Exit status, or -1 when the program ended by a signal.
+int run(const char* const* command, const Scratch& in, const Scratch& out, const Scratch& errors) {
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, fileno(in.get()), STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(out.get()), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, fileno(errors.get()), STDERR_FILENO);
+    pid_t process = 0;
+    const int failure = posix_spawnp(&process, command[0], &actions, nullptr,
+                                     const_cast<char* const*>(command), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failure == ENOENT)
+        throw Error(fmt::format("{} is not installed and draws the chart; on Debian: apt-get "
+                                "install gnuplot-nox",
+                                command[0]));
+    if (failure)
+        throw Error(fmt::format("{} cannot be started: {}", command[0], std::strerror(failure)));
+    int status = 0;
+    while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+} // namespace
+
+std::string gnuplotSvg(const std::string& script, const std::string& title) {
+    const Scratch in = scratch(script), out = scratch(), errors = scratch();
+    const char* const command[] = {"gnuplot", "-d", "-", nullptr}; // -d: no settings of the user's
+    const int status = run(command, in, out, errors);
+    std::string svg = contentOf(out);
+    const std::size_t begin = svg.find("<svg");
+    if (status != 0 || begin == svg.npos)
+        throw Error(fmt::format("gnuplot failed (status {}): {}", status, contentOf(errors)));
+    svg.erase(0, begin);
+    constexpr std::string_view itsTitle = "<title>Gnuplot</title>";
+    if (const std::size_t at = svg.find(itsTitle); at != svg.npos)
+        svg.replace(at, itsTitle.size(), fmt::format("<title>{}</title>", escaped(title)));
+    return svg;
+}
+
+std::string gnuplotQuoted(const std::string& text) {
+    std::string quoted = "'";
+    for (const char c : text)
+        if (c == '\'')
+            quoted += "''";
+        else
+            quoted += c == '\n' || c == '\r' ? ' ' : c;
+    return quoted + "'";
+}
+
+} // namespace obscura

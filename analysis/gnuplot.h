@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace obscura {
+
+// Runs gnuplot on a script and returns what it prints, the SVG of `set terminal svg`, without the
+// XML prologue, so that it can stand inside a page; `title` becomes its accessible name. A missing
+// gnuplot or a fault in the script is an Error.
+std::string gnuplotSvg(const std::string& script, const std::string& title);
+
+// The text as a gnuplot string on one line; combine with `noenhanced`, or "_" and "^" vanish.
+std::string gnuplotQuoted(const std::string& text);
+
+} // namespace obscura

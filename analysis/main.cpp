@@ -1,0 +1,121 @@
+// obscura-analysis: the answers of a study, or published counts, become a table, a CSV and a page.
+
+#include "analysis/findings.h"
+#include "analysis/report.h"
+#include "analysis/table.h"
+#include "protocols/files.h"
+#include "protocols/version.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Options {
+    std::vector<fs::path> data;
+    fs::path counts, stimuli, out = "report", csv;
+    AnswerRules rules;
+};
+
+const std::map<std::string, SimulatedRows> simulatedRows = {
+    {"refuse", SimulatedRows::refuse},
+    {"exclude", SimulatedRows::exclude},
+    {"only", SimulatedRows::only},
+    {"include", SimulatedRows::include}};
+
+void declare(CLI::App& app, Options& options) {
+    app.set_version_flag("--version", fmt::format("{} ({})", version(), commit()));
+    auto* data = app.add_option("DATA", options.data,
+                                "A study's folder (participant_data/<study>), or CSV files");
+    auto* counts = app.add_option("--counts", options.counts,
+                                  "Instead of DATA: published counts, a CSV file such as "
+                                  "analysis/thesis_table4.csv");
+    auto* stimuli = app.add_option("--stimuli", options.stimuli,
+                                   "Folder of the study's stimuli (manifest.json): sets the order "
+                                   "of conditions, adds the contact sheet to the report, and "
+                                   "checks that these images were shown");
+    counts->excludes(data)->excludes(stimuli);
+    app.add_option("--out", options.out, "Folder for report.html and votes.csv")
+        ->capture_default_str();
+    app.add_option("--csv", options.csv, "Where the CSV goes instead of votes.csv in that folder");
+}
+
+void declareRules(CLI::App& app, AnswerRules& rules) {
+    app.add_flag("--lenient", rules.lenient, "Report rows that cannot be read, and skip them");
+    app.add_option("--simulated", rules.simulated,
+                   "Rows of simulated among those of real participants: refuse, exclude, only (the "
+                   "simulated), include. Data of one kind need no choice")
+        ->option_text("WHAT=refuse")
+        ->transform(CLI::Transformer(simulatedRows))
+        ->check(CLI::IsMember(simulatedRows));
+    app.add_flag("--allow-mixed-studies", rules.mixedStudies, "Pool rows of several studies");
+    app.add_flag("--allow-mixed-protocols", rules.mixedProtocols,
+                 "Pool rows of several versions of the protocol file");
+    app.add_flag("--allow-duplicates", rules.duplicates,
+                 "Where a trial has several rows, count the first and leave out the others");
+    app.add_flag("--exclude-interrupted{false}", rules.interrupted,
+                 "Leave out trials during which the window lost the screen; else they count");
+}
+
+Findings published(const fs::path& counts) {
+    return {fmt::format("Published counts: {}", counts.filename().string()), readCounts(counts),
+            std::nullopt, std::nullopt};
+}
+
+Findings findingsOf(const Options& options) {
+    if (!options.counts.empty())
+        return published(options.counts);
+    const Answers answers = collectAnswers(options.data, options.rules);
+    for (const BadRow& bad : answers.bad)
+        fmt::print(stderr, "skipped: {}{}\n", bad.place.prefix(), bad.message);
+    Findings findings;
+    if (!options.stimuli.empty())
+        findings.stimuli = readManifest(options.stimuli / "manifest.json");
+    const Manifest* stimuli = findings.stimuli ? &*findings.stimuli : nullptr;
+    findings.title = stimuli ? stimuli->title : answers.counted.front().row.studyId;
+    findings.tallies = tallyVotes(answers.counted, stimuli);
+    findings.conduct = conductOf(answers);
+    return findings;
+}
+
+void printFindings(const Findings& findings) {
+    if (const std::string stamp = stampOf(findings); !stamp.empty())
+        fmt::print("*** {} ***\n\n", stamp);
+    fmt::print("{}\n\n{}\n", findings.title, alignedText(resultTable(findings.tallies)));
+    for (const std::string& sentence : summaryOf(findings))
+        fmt::print("{}\n", sentence);
+}
+
+int analyse(int argc, char** argv) {
+    CLI::App app("Statistics and a report from the answers of a study.", "obscura-analysis");
+    Options options;
+    declare(app, options);
+    declareRules(app, options.rules);
+    CLI11_PARSE(app, argc, argv);
+    if (options.data.empty() && options.counts.empty())
+        throw Error("expected a study's folder, CSV files, or --counts FILE; see --help");
+
+    const Findings findings = findingsOf(options);
+    const fs::path csv = options.csv.empty() ? options.out / "votes.csv" : options.csv;
+    const fs::path report = options.out / "report.html";
+    const std::string page = reportHtml(findings);
+    writeFile(csv, resultCsv(findings));
+    writeFile(report, page);
+    printFindings(findings);
+    fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());
+    return 0;
+}
+
+} // namespace
+
+} // namespace obscura
+
+int main(int argc, char** argv) {
+    return obscura::runProgram("obscura-analysis", obscura::analyse, argc, argv);
+}

@@ -1,0 +1,187 @@
+#include "analysis/report.h"
+
+#include "analysis/chart.h"
+#include "analysis/html.h"
+#include "analysis/table.h"
+#include "protocols/files.h"
+#include "protocols/version.h"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace obscura {
+
+namespace {
+
+// The policy lets the page load nothing at all from elsewhere.
+constexpr std::string_view head = R"(<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8"/>
+<meta name="viewport" content="width=device-width"/>
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'"/>
+<title>{}</title>
+<style>
+body {{ font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: white; max-width: 62rem;
+       margin: 2rem auto; padding: 0 1rem; }}
+h1 {{ font-size: 1.7rem; line-height: 1.25; margin-bottom: 0; }}
+h2 {{ font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }}
+.stamp {{ background: #B33A00; color: white; font-size: 1.15rem; font-weight: bold;
+         padding: .6rem 1rem; margin: 1rem 0; }}
+.aside {{ color: #555; font-size: .88rem; }}
+figure {{ margin: 1rem 0; }}
+figure svg, figure img {{ width: 100%; height: auto; }}
+.wide {{ overflow-x: auto; }}
+table {{ border-collapse: collapse; font-size: .88rem; }}
+th, td {{ padding: .25rem .55rem; text-align: left; vertical-align: top; }}
+thead th {{ border-bottom: 2px solid #555; }}
+tbody th {{ font-weight: 600; white-space: nowrap; }}
+tbody tr {{ border-bottom: 1px solid #ddd; }}
+.number {{ text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }}
+.differs td {{ font-weight: 600; background: #E3EFF7; }}
+.hash {{ font-family: monospace; overflow-wrap: anywhere; }}
+@media print {{
+  body {{ font-size: 10pt; margin: 0; max-width: none; }}
+  figure, tr {{ break-inside: avoid; }}
+  h2 {{ break-after: avoid; }}
+  .stamp, .differs td {{ print-color-adjust: exact; -webkit-print-color-adjust: exact; }}
+}}
+</style>
+</head>
+<body>
+)";
+
+std::string element(std::string_view name, const std::string& text) {
+    return fmt::format("<{0}>{1}</{0}>\n", name, escaped(text));
+}
+
+std::string paragraphs(const Findings& findings) {
+    std::string text;
+    for (const std::string& sentence : summaryOf(findings))
+        text += (text.empty() ? "" : " ") + sentence;
+    return element("p", text);
+}
+
+std::string row(const char* cellName, const Table& table, const std::vector<std::string>& cells) {
+    std::string html;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        html += fmt::format("<{0}{1}>{2}</{0}>", cellName,
+                            table.columns[i].number ? " class=\"number\"" : "", escaped(cells[i]));
+    return html;
+}
+
+std::string tableHtml(const Table& table, const std::vector<Tally>& tallies) {
+    std::vector<std::string> headings;
+    for (const Table::Column& column : table.columns)
+        headings.push_back(column.heading);
+    std::string html = fmt::format("<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n"
+                                   "<tbody>\n",
+                                   row("th", table, headings));
+    for (std::size_t i = 0; i < table.rows.size(); ++i)
+        html += fmt::format("<tr{}>{}</tr>\n",
+                            differs(tallies[i].votes) ? " class=\"differs\"" : "",
+                            row("td", table, table.rows[i]));
+    return html + "</tbody></table></div>\n";
+}
+
+constexpr std::string_view tableNote = R"(<p class="aside">Votes for the more realistic of two
+images; shaded where the exact p is below .05, uncorrected for the number of tests. b share: with
+its 95 % Wilson interval. χ²: against an even split, one degree of freedom. p (exact): two-sided
+binomial. g: Cohen's, share − ½. JOD: how far b lies above a in just-objectionable differences; 1
+means that 75 % prefer b. votes.csv beside this page has all digits, and Cohen's h and w.</p>
+)";
+
+std::string results(const Findings& findings) {
+    return "<h2>Results</h2>\n<figure>\n" + chartSvg(findings) + "</figure>\n" +
+           tableHtml(resultTable(findings.tallies), findings.tallies) + std::string(tableNote);
+}
+
+std::string contactSheet(const Manifest& stimuli) {
+    const std::filesystem::path path = stimuli.folder / stimuli.contactSheet.path;
+    const std::string bytes = readFile(path);
+    if (sha256(bytes) != stimuli.contactSheet.sha256)
+        throw Error({path.string(), 0, 0, {}},
+                    "not the contact sheet that the stimuli's manifest describes; run "
+                    "obscura-stimuli again");
+    return fmt::format("<figure><img alt=\"Every pair, its occlusion and its difference\" "
+                       "src=\"{}\"/></figure>\n",
+                       dataAddress("image/png", bytes));
+}
+
+std::string occlusionTable(const Manifest& stimuli) {
+    std::string html = "<div class=\"wide\"><table>\n<thead><tr><th>Condition</th><th>a</th>"
+                       "<th class=\"number\">mean occlusion</th><th>b</th>"
+                       "<th class=\"number\">mean occlusion</th>"
+                       "<th class=\"number\">radius, m</th></tr></thead>\n<tbody>\n";
+    for (const PairRecord& pair : stimuli.pairs)
+        html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"number\">{:.3f}"
+                            "</td><td>{}</td><td class=\"number\">{:.3f}</td>"
+                            "<td class=\"number\">{:g}</td></tr>\n",
+                            escaped(pair.condition), escaped(pair.a.name), pair.a.meanOcclusion,
+                            escaped(pair.b.name), pair.b.meanOcclusion, pair.radius);
+    return html + "</tbody></table></div>\n";
+}
+
+std::string renderedBy(const Manifest& stimuli) {
+    std::set<std::string> makers;
+    for (const PairRecord& pair : stimuli.pairs)
+        for (const Recipe& recipe : {pair.a.recipe, pair.b.recipe})
+            makers.insert(fmt::format("obscura-stimuli {} ({}), OpenGL {}, {}, {}",
+                                      recipe.programVersion, stimuli.commit, recipe.glVersion,
+                                      recipe.glRenderer, recipe.glVendor));
+    return fmt::format("{} × {} pixels, by {}", stimuli.width, stimuli.height,
+                       fmt::join(makers, "; "));
+}
+
+std::string stimuliSection(const Manifest& stimuli) {
+    return "<h2>Stimuli</h2>\n" + contactSheet(stimuli) + occlusionTable(stimuli);
+}
+
+std::string factRow(const Fact& fact) {
+    const bool isHash = fact.name.find("SHA-256") != std::string::npos;
+    return fmt::format("<tr><th scope=\"row\">{}</th><td{}>{}</td></tr>\n", escaped(fact.name),
+                       isHash ? " class=\"hash\"" : "", escaped(fact.text));
+}
+
+std::string unreadable(const std::vector<BadRow>& rows) {
+    std::string html;
+    for (const BadRow& bad : rows)
+        html += "<li>" + escaped(bad.place.prefix() + bad.message) + "</li>\n";
+    return html.empty() ? html : "<p>Rows that could not be read:</p>\n<ul>\n" + html + "</ul>\n";
+}
+
+std::string howItWasRun(const Findings& findings) {
+    std::vector<Fact> facts;
+    if (findings.conduct)
+        facts = factsOf(*findings.conduct);
+    if (findings.stimuli)
+        facts.push_back({"Images rendered", renderedBy(*findings.stimuli)});
+    facts.push_back({"Analysed by", fmt::format("obscura-analysis {} ({})", version(), commit())});
+    std::string html = "<h2>How the study was run</h2>\n";
+    if (!findings.conduct)
+        html += element("p", "These are published counts: how they were gathered, and whether "
+                             "orders were balanced, cannot be told from them.");
+    html += "<table><tbody>\n";
+    for (const Fact& fact : facts)
+        html += factRow(fact);
+    html += "</tbody></table>\n";
+    return html + (findings.conduct ? unreadable(findings.conduct->bad) : "");
+}
+
+} // namespace
+
+std::string reportHtml(const Findings& findings) {
+    const std::string stamp = stampOf(findings);
+    const std::string mark = stamp.empty() ? "" : fmt::format("[{}] ", sourceOf(findings));
+    std::string html = fmt::format(head, escaped(mark + findings.title));
+    html += element("h1", findings.title);
+    if (!stamp.empty())
+        html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(stamp));
+    html += paragraphs(findings) + results(findings);
+    if (findings.stimuli)
+        html += stimuliSection(*findings.stimuli);
+    return html + howItWasRun(findings) + "</body>\n</html>\n";
+}
+
+} // namespace obscura

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "analysis/answers.h"
+#include "analysis/frequencies.h"
+#include "protocols/manifest.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// The votes of one condition: which of its two techniques looked more realistic.
+struct Tally {
+    std::string condition, level, scene, hypothesis, techniqueA, techniqueB;
+    Votes votes;
+};
+
+// One tally per condition, in the order of the stimuli's manifest (then every condition has one,
+// even without votes) or, without a manifest, of condition ids; conditions of one level together.
+// Rows that name a condition but describe another pair are an Error, and so, given a manifest, are
+// rows whose images are not the manifest's.
+std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest* stimuli);
+
+// Published counts: condition_id,level,scene,tech_a,tech_b,hypothesis,votes_a,votes_b; in the
+// order of the file.
+std::vector<Tally> readCounts(const std::filesystem::path& path);
+
+} // namespace obscura

@@ -1,0 +1,96 @@
+#include "experiment/append_file.h"
+
+#include "protocols/error.h"
+#include "protocols/files.h"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// A new file survives a power cut only when its folder's entry is on disk, too.
+void flushFolder(const fs::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0)
+        return;
+    ::fsync(descriptor);
+    ::close(descriptor);
+}
+
+bool writeAll(int descriptor, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t count = ::write(descriptor, text.data(), text.size());
+        if (count < 0 && errno != EINTR)
+            return false;
+        text.remove_prefix(count > 0 ? static_cast<std::size_t>(count) : 0);
+    }
+    return true;
+}
+
+} // namespace
+
+AppendFile AppendFile::create(const fs::path& path) {
+    return {path, O_CREAT | O_EXCL, "expected to create a new file"};
+}
+
+AppendFile AppendFile::openLocked(const fs::path& path) {
+    AppendFile file(path, O_CREAT, "cannot be opened");
+    while (::flock(file.descriptor_, LOCK_EX) != 0)
+        if (errno != EINTR)
+            file.fail("cannot be locked");
+    file.cutTornLine();
+    return file;
+}
+
+AppendFile::AppendFile(fs::path path, int flags, std::string_view what) : path_(std::move(path)) {
+    fs::create_directories(path_.parent_path());
+    descriptor_ = ::open(path_.c_str(), flags | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+        fail(what);
+    flushFolder(path_.parent_path());
+}
+
+AppendFile::AppendFile(AppendFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+AppendFile::~AppendFile() {
+    if (descriptor_ >= 0)
+        ::close(descriptor_); // and with it the lock
+}
+
+void AppendFile::append(std::string_view lines) {
+    assert(lines.ends_with('\n'));
+    const off_t before = ::lseek(descriptor_, 0, SEEK_END);
+    if (writeAll(descriptor_, lines) && ::fsync(descriptor_) == 0)
+        return;
+    const int reason = errno;
+    if (::ftruncate(descriptor_, before) == 0)
+        ::fsync(descriptor_);
+    errno = reason;
+    fail(fmt::format("cannot be written; what was to be added: {}", lines.substr(0, lines.size() - 1)));
+}
+
+void AppendFile::cutTornLine() {
+    const std::string content = readFile(path_);
+    const std::size_t end = content.rfind('\n') + 1; // npos + 1 is 0: no line at all
+    if (end != content.size() && ::ftruncate(descriptor_, static_cast<off_t>(end)) != 0)
+        fail("cannot be mended");
+}
+
+void AppendFile::fail(std::string_view what) const {
+    throw Error({path_.string(), 0, 0, {}}, fmt::format("{}: {}", what, std::strerror(errno)));
+}
+
+} // namespace obscura

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace obscura {
+
+// A text file that only grows, by whole lines, each of them on disk before append() returns. A
+// line that cannot be written to its end is taken out again, so a full disk leaves no half line.
+class AppendFile {
+  public:
+    // A new file. An Error when one of that name is there: nothing is ever overwritten.
+    static AppendFile create(const std::filesystem::path& path);
+
+    // An old file or a new one, locked against every other process until this object dies; waits
+    // for the lock. A last line without its end (power was cut while it was written) is removed.
+    static AppendFile openLocked(const std::filesystem::path& path);
+
+    AppendFile(AppendFile&& other) noexcept;
+    AppendFile& operator=(AppendFile&&) = delete;
+    ~AppendFile();
+
+    void append(std::string_view lines); // ends with a line feed
+
+  private:
+    AppendFile(std::filesystem::path path, int flags, std::string_view what);
+    void cutTornLine();
+    [[noreturn]] void fail(std::string_view what) const;
+
+    std::filesystem::path path_;
+    int descriptor_ = -1;
+};
+
+} // namespace obscura

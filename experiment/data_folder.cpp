@@ -1,0 +1,118 @@
+#include "experiment/data_folder.h"
+
+#include "protocols/error.h"
+#include "protocols/files.h"
+#include "protocols/responses.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+namespace {
+
+constexpr std::size_t longestId = 32;
+
+bool isAlphanumeric(char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+ordered_json variables() {
+    ordered_json list = ordered_json::array();
+    for (const Column& column : responseColumns())
+        list.push_back({{"@type", "PropertyValue"},
+                        {"name", column.name},
+                        {"description", column.description},
+                        {"valueReference", column.expected}});
+    return list;
+}
+
+std::string description(const std::string& study, const std::string& title) {
+    const ordered_json json = {
+        {"@context", "https://schema.org/"},
+        {"@type", "Dataset"},
+        {"name", study},
+        {"description",
+         fmt::format("{}: forced choices between two images, one row per trial", title)},
+        {"keywords", {"psychophysics", "ambient occlusion", "two-alternative forced choice"}},
+        {"variableMeasured", variables()},
+    };
+    return json.dump(2) + "\n";
+}
+
+std::string readme(const std::string& title) {
+    return fmt::format(
+        "# {}\n\n"
+        "Data of one study, laid out as Psych-DS. `data/` has one CSV per participant and session,\n"
+        "one row per trial; `dataset_description.json` says what each column means. `sessions/`\n"
+        "has, for each of them, the circumstances (`_session.json`) and a journal of what began\n"
+        "and ended when (`_journal.jsonl`), and the ledger of the ordering scheme's slots.\n\n"
+        "Participants are named by pseudonyms. Keep the list of who they are elsewhere.\n",
+        title);
+}
+
+// Users add authors and a licence to the description; only its columns are ours to check.
+void checkDescription(const fs::path& path) {
+    const auto json = ordered_json::parse(readFile(path), nullptr, false);
+    if (!json.is_object() || !json.contains("variableMeasured") ||
+        json["variableMeasured"] != variables())
+        throw Error({path.string(), 0, 0, "variableMeasured"},
+                    "the columns described are not those this version writes; use a data folder "
+                    "of its own for each version: --data DIR");
+}
+
+} // namespace
+
+DataFolder::DataFolder(const fs::path& data, const Protocol& protocol)
+    : root_(data / protocol.name), title_(protocol.title) {
+    std::copy_if(protocol.name.begin(), protocol.name.end(), std::back_inserter(study_),
+                 isAlphanumeric); // Psych-DS: no hyphen within a value
+}
+
+void DataFolder::prepare() const {
+    const fs::path path = root_ / "dataset_description.json";
+    if (fs::exists(path))
+        checkDescription(path);
+    else
+        writeFile(path, description(root_.filename().string(), title_));
+    if (!fs::exists(root_ / "README.md"))
+        writeFile(root_ / "README.md", readme(title_));
+    fs::create_directories(root_ / "data");
+    fs::create_directories(root_ / "sessions");
+}
+
+std::string DataFolder::stem(const SessionId& session) const {
+    return fmt::format("study-{}_subject-{}_session-{}", study_, session.participant,
+                       session.number);
+}
+
+fs::path DataFolder::rows(const SessionId& session) const {
+    return root_ / "data" / (stem(session) + "_data.csv");
+}
+
+fs::path DataFolder::journal(const SessionId& session) const {
+    return root_ / "sessions" / (stem(session) + "_journal.jsonl");
+}
+
+fs::path DataFolder::sidecar(const SessionId& session) const {
+    return root_ / "sessions" / (stem(session) + "_session.json");
+}
+
+fs::path DataFolder::ledger() const { return root_ / "sessions" / "ledger.jsonl"; }
+
+std::string objection(const DataFolder& folder, const SessionId& session) {
+    const std::string& id = session.participant;
+    if (id.empty() || id.size() > longestId || !std::all_of(id.begin(), id.end(), isAlphanumeric))
+        return fmt::format("a participant id has 1 to {} letters (a-z) and digits", longestId);
+    if (fs::exists(folder.rows(session)) || fs::exists(folder.journal(session)))
+        return fmt::format("there are data of {}, session {}; another id, or another session",
+                           id, session.number);
+    return {};
+}
+
+} // namespace obscura

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "experiment/ledger.h"
+#include "protocols/protocol.h"
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace obscura {
+
+// Where a study's data lie, as Psych-DS wants it:
+//
+//   <data>/<study>/dataset_description.json   what the columns mean
+//   <data>/<study>/README.md
+//   <data>/<study>/data/study-<study>_subject-<id>_session-<n>_data.csv   one row per trial
+//   <data>/<study>/sessions/study-..._journal.jsonl   what began and ended when
+//   <data>/<study>/sessions/study-..._session.json    display, order, how the session went
+//   <data>/<study>/sessions/ledger.jsonl              who has which slot
+class DataFolder {
+  public:
+    DataFolder(const std::filesystem::path& data, const Protocol& protocol);
+
+    // Makes the folders, the description and the README where they are missing. An Error when a
+    // description is there that speaks of other columns.
+    void prepare() const;
+
+    std::filesystem::path rows(const SessionId& session) const;
+    std::filesystem::path journal(const SessionId& session) const;
+    std::filesystem::path sidecar(const SessionId& session) const;
+    std::filesystem::path ledger() const;
+
+  private:
+    std::string stem(const SessionId& session) const;
+
+    std::filesystem::path root_;
+    std::string study_, title_;
+};
+
+// Why the session cannot be run under this name: not letters and digits, or there are data already.
+// "" when it can.
+std::string objection(const DataFolder& folder, const SessionId& session);
+
+} // namespace obscura

@@ -1,0 +1,89 @@
+#include "experiment/display.h"
+
+#include "protocols/error.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <vector>
+
+namespace obscura {
+
+namespace {
+
+constexpr int warmUpFlips = 10, measuredFlips = 100;
+
+} // namespace
+
+Display::Display(const gl::WindowOptions& options, int grey)
+    : window_(options), grey_(grey), windowed_(options.windowed.has_value()) {
+    measure();
+}
+
+void Display::measure() {
+    for (int i = 0; i < warmUpFlips; ++i)
+        show(nullptr);
+    std::vector<double> intervals;
+    for (double last = show(nullptr); intervals.size() < measuredFlips;) {
+        const double time = show(nullptr);
+        intervals.push_back(time - last);
+        last = time;
+    }
+    refresh_ = judgeRefresh(intervals, window_.monitor().refreshHz);
+    paced_ = refresh_.source == "none";
+}
+
+void Display::describe(nlohmann::ordered_json& sidecar) const {
+    const gl::Monitor& monitor = window_.monitor();
+    sidecar["display"] = {
+        {"monitor", monitor.name},
+        {"mode", fmt::format("{}x{}", monitor.width, monitor.height)},
+        {"reported_hz", monitor.refreshHz},
+        {"size_mm", fmt::format("{}x{}", monitor.widthMm, monitor.heightMm)},
+        {"framebuffer", fmt::format("{}x{}", window_.width(), window_.height())},
+        {"content_scale", window_.contentScale()},
+        {"windowed", windowed_},
+        {"gl_vendor", window_.glVendor()},
+        {"gl_renderer", window_.glRenderer()},
+        {"gl_version", window_.glVersion()},
+    };
+}
+
+void Display::warmUp(const gl::Picture& picture) {
+    if (picture.width() > window_.width() || picture.height() > window_.height())
+        throw Error(fmt::format("images of {}x{} pixels do not fit on a screen of {}x{}, and are "
+                                "never scaled; choose a larger monitor (--monitor), a larger "
+                                "window, or a smaller image size in the protocol",
+                                picture.width(), picture.height(), window_.width(),
+                                window_.height()));
+    draw(&picture);
+    window_.finish();
+}
+
+double Display::show(const gl::Picture* picture) {
+    draw(picture);
+    if (paced_) {
+        window_.finish();
+        awaitTick();
+    }
+    window_.swap();
+    return window_.now();
+}
+
+void Display::draw(const gl::Picture* picture) {
+    window_.clear(grey_);
+    if (picture)
+        window_.draw(*picture);
+}
+
+// The next whole multiple of 1/60 s on the window's clock.
+void Display::awaitTick() {
+    const double tick = (std::floor(window_.now() * refresh_.hz) + 1) / refresh_.hz;
+    while (window_.now() < tick)
+        std::this_thread::sleep_for(std::chrono::duration<double>(tick - window_.now()));
+}
+
+} // namespace obscura

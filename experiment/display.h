@@ -1,0 +1,40 @@
+#pragma once
+
+#include "experiment/refresh.h"
+#include "renderer/gl/window.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace obscura {
+
+// The screen: shows one picture at a time, 1:1 in its middle on the surround grey, and says when it
+// came on. Its rate is measured when it is made. Where swaps follow no vertical blank (Xvfb, a
+// driver told not to wait) it is paced by the clock at 60 Hz, and refresh() says so.
+class Display {
+  public:
+    Display(const gl::WindowOptions& options, int grey);
+
+    const Refresh& refresh() const { return refresh_; }
+    void describe(nlohmann::ordered_json& sidecar) const;
+    gl::Window& window() { return window_; }
+
+    // Draws without showing, so that the first showing is not slower than others. An Error when
+    // the picture is larger than the screen: nothing is ever scaled.
+    void warmUp(const gl::Picture& picture);
+
+    // The time at which it came on. Nothing: grey alone.
+    double show(const gl::Picture* picture);
+
+  private:
+    void measure();
+    void draw(const gl::Picture* picture);
+    void awaitTick();
+
+    gl::Window window_;
+    int grey_;
+    bool windowed_;
+    Refresh refresh_;
+    bool paced_ = false;
+};
+
+} // namespace obscura

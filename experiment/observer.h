@@ -1,0 +1,68 @@
+#pragma once
+
+#include "experiment/refresh.h"
+#include "experiment/study.h"
+#include "experiment/trial.h"
+#include "protocols/random.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// A trial about to be run.
+struct Upcoming {
+    int index = 0, count = 0; // which of how many, from 1
+    int condition = 0;        // as the protocol counts them, from 0
+    bool reversed = false;    // member b comes first
+};
+
+// One who is shown things and answers: a person before a display (Presenter), or a stated model of
+// one with a clock of its own. Both go through the same session, trial machine and recorder.
+class Observer {
+  public:
+    virtual ~Observer() = default;
+
+    virtual Refresh refresh() const = 0;
+    virtual void describe(nlohmann::ordered_json& sidecar) const = 0; // display, or model
+
+    virtual bool instruct() = 0; // false when the person leaves instead of beginning
+    virtual void prepare(const Upcoming& trial) = 0;
+    // Shows a screen of the prepared trial; the time at which it came on.
+    virtual double show(Screen screen) = 0;
+    // What the person has done since; with `wait`, sleeps until there is something.
+    virtual std::vector<Event> events(bool wait) = 0;
+    virtual void thank() = 0;
+};
+
+// The model, for dry runs and power studies; docs/measurement.md has it in words. The probability
+// of choosing the second image is that of preferring the member shown second (the protocol's
+// choose_b, or one minus it), plus the position bias, within [0, 1]. Looking and deciding take
+// ex-Gaussian times. The same seed and participant always do the same.
+class SimulatedObserver : public Observer {
+  public:
+    SimulatedObserver(const Protocol& protocol, std::uint64_t seed, const std::string& participant);
+
+    Refresh refresh() const override;
+    void describe(nlohmann::ordered_json& sidecar) const override;
+    bool instruct() override { return true; }
+    void prepare(const Upcoming& trial) override;
+    double show(Screen screen) override; // at the next refresh of a 60 Hz clock
+    std::vector<Event> events(bool wait) override;
+    void thank() override {}
+
+  private:
+    std::vector<Event> press(gl::Key key, double after);
+    double draw(const ExGaussian& time);
+
+    const Protocol& protocol_;
+    std::uint64_t seed_;
+    Random random_;
+    double chooseSecond_ = 0.5;
+    Screen visible_ = Screen::start;
+    double clock_ = 0;
+};
+
+} // namespace obscura

@@ -1,0 +1,20 @@
+#pragma once
+
+#include "experiment/text.h"
+#include "protocols/protocol.h"
+
+#include <string>
+
+namespace obscura {
+
+// What participants and experimenters read, page by page. The study's own words come from its
+// protocol; `start` may say "{pair}" and "{pairs}" for the number of the pair and of all pairs.
+
+Page idPage(const std::string& typed, const std::string& objection);
+Page instructionsPage(const Texts& texts);
+Page startPage(const Texts& texts, int pair, int pairs);
+Page questionPage(const Texts& texts);
+Page leavePage();
+Page thanksPage(const Texts& texts);
+
+} // namespace obscura

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "experiment/data_folder.h"
+#include "experiment/observer.h"
+#include "experiment/study.h"
+
+#include <filesystem>
+
+namespace obscura {
+
+// One participant, from claiming a slot to the last row: instructions, every trial in the slot's
+// order, thanks. Each row is on disk before the next trial begins. True when all trials were
+// recorded; otherwise the person left, the rows so far are kept and the slot is given back.
+bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
+                Observer& observer);
+
+} // namespace obscura

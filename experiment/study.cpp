@@ -1,0 +1,85 @@
+#include "experiment/study.h"
+
+#include "protocols/error.h"
+#include "protocols/files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string remedy(const Manifest& manifest, const Protocol& protocol) {
+    return fmt::format("make them again: obscura-stimuli --protocol {} --out {}",
+                       protocol.path.string(), manifest.folder.string());
+}
+
+void checkBelongTogether(const Protocol& protocol, const Manifest& manifest) {
+    const std::string place = (manifest.folder / "manifest.json").string();
+    if (manifest.protocolSha256 != protocol.sha256)
+        throw Error({place, 0, 0, {}},
+                    fmt::format("these stimuli were made from another version of {} (SHA-256 "
+                                "{:.12}..., the file has {:.12}...); {}",
+                                protocol.path.string(), manifest.protocolSha256, protocol.sha256,
+                                remedy(manifest, protocol)));
+    for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
+        if (i >= manifest.pairs.size() || manifest.pairs[i].condition != protocol.conditions[i].id)
+            throw Error({place, 0, 0, fmt::format("pairs[{}]", i)},
+                        fmt::format("expected the pair of condition \"{}\"; {}",
+                                    protocol.conditions[i].id, remedy(manifest, protocol)));
+}
+
+// The file's bytes.
+std::string readVerified(const Manifest& manifest, const FileRecord& record) {
+    const fs::path path = manifest.folder / record.path;
+    std::string bytes = readFile(path);
+    if (const std::string found = sha256(bytes); found != record.sha256)
+        throw Error({path.string(), 0, 0, {}},
+                    fmt::format("not the image that the manifest vouches for: expected SHA-256 "
+                                "{:.12}..., found {:.12}...; run obscura-stimuli again",
+                                record.sha256, found));
+    return bytes;
+}
+
+} // namespace
+
+const PairRecord& Study::pair(int condition) const {
+    return manifest.pairs.at(static_cast<std::size_t>(condition));
+}
+
+Study openStudy(const fs::path& protocol, const fs::path& stimuli) {
+    Study study{readProtocol(protocol), readManifest(stimuli / "manifest.json")};
+    // The manifest's order of pairs is its writer's affair; ours is the protocol's.
+    std::vector<PairRecord> ordered;
+    for (const Condition& condition : study.protocol.conditions)
+        for (PairRecord& pair : study.manifest.pairs)
+            if (pair.condition == condition.id)
+                ordered.push_back(pair);
+    study.manifest.pairs = std::move(ordered);
+    checkBelongTogether(study.protocol, study.manifest);
+    return study;
+}
+
+Image8 loadStimulus(const Manifest& manifest, const ImageRecord& record) {
+    const std::string bytes = readVerified(manifest, record.image);
+    Image8 image = readImage8(std::as_bytes(std::span(bytes)), record.image.path, 3);
+    if (image.width != manifest.width || image.height != manifest.height)
+        throw Error({(manifest.folder / record.image.path).string(), 0, 0, {}},
+                    fmt::format("expected {}x{} pixels, found {}x{}; run obscura-stimuli again",
+                                manifest.width, manifest.height, image.width, image.height));
+    return image;
+}
+
+void verifyStimuli(const Manifest& manifest) {
+    for (const PairRecord& pair : manifest.pairs)
+        for (const ImageRecord* record : {&pair.a, &pair.b})
+            readVerified(manifest, record->image);
+}
+
+} // namespace obscura

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "protocols/manifest.h"
+#include "protocols/protocol.h"
+#include "renderer/image.h"
+
+#include <filesystem>
+
+namespace obscura {
+
+// A protocol and the stimuli made from it, known to belong together: the manifest was made from
+// this very protocol file and has both images of every condition.
+struct Study {
+    Protocol protocol;
+    Manifest manifest;
+
+    const PairRecord& pair(int condition) const; // as the protocol counts them, from 0
+};
+
+Study openStudy(const std::filesystem::path& protocol, const std::filesystem::path& stimuli);
+
+// Its pixels, from a file whose SHA-256 and size are as the manifest says; an Error otherwise.
+Image8 loadStimulus(const Manifest& manifest, const ImageRecord& record);
+
+// The same check for every image of the study, without decoding.
+void verifyStimuli(const Manifest& manifest);
+
+} // namespace obscura

@@ -1,0 +1,301 @@
+#include "experiment/text.h"
+
+#include "protocols/error.h"
+
+#include <fmt/format.h>
+#include <pango/pangocairo.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+template <auto function>
+struct Call {
+    template <typename T>
+    void operator()(T* object) const {
+        function(object);
+    }
+};
+using Surface = std::unique_ptr<cairo_surface_t, Call<cairo_surface_destroy>>;
+using Cairo = std::unique_ptr<cairo_t, Call<cairo_destroy>>;
+using Layout = std::unique_ptr<PangoLayout, Call<g_object_unref>>;
+using Font = std::unique_ptr<PangoFontDescription, Call<pango_font_description_free>>;
+using FontOptions = std::unique_ptr<cairo_font_options_t, Call<cairo_font_options_destroy>>;
+
+constexpr const char* family = "DejaVu Sans, Noto Sans, Liberation Sans, Sans";
+constexpr double lineSpacing = 1.3;
+constexpr double measure = 34; // line length in em: some 65 characters
+
+// Shades of grey that go with the page's own, in [0, 1].
+struct Palette {
+    double paper, ink, card, edge;
+};
+
+// Black contrasts more than white where the paper is lighter than about code value 118.
+Palette paletteFor(int grey) {
+    const double paper = grey / 255.0;
+    const double towardsInk = grey >= 118 ? -1 : 1;
+    return {paper, grey >= 118 ? 0.04 : 0.96, std::clamp(paper - towardsInk * 0.1, 0.0, 1.0),
+            std::clamp(paper + towardsInk * 0.2, 0.0, 1.0)};
+}
+
+// One attempt at a page with type of a given size: places things from top to bottom, either only
+// to measure (nothing is drawn) or for good.
+class Setter {
+  public:
+    Setter(cairo_t* cairo, const Palette& palette, int width, double em)
+        : cairo_(cairo), palette_(palette), width_(width), em_(em) {}
+
+    double y = 0;
+
+    void warning(const std::string& text);
+    void paragraph(const std::string& text, double size, bool bold = false);
+    void field(const std::string& typed);
+    std::vector<Box> options(const std::vector<Page::Option>& options);
+    void gap(double ems) { y += ems * em_; }
+
+    bool drawing = false;
+
+  private:
+    struct Card {
+        Layout key, label;
+        double width = 0, height = 0;
+    };
+
+    Layout lay(const std::string& text, double size, bool bold, double wrapAt) const;
+    void ink(double grey) const { cairo_set_source_rgb(cairo_, grey, grey, grey); }
+    void rounded(double x, double top, double width, double height, double radius) const;
+    void put(PangoLayout* layout, double x, double top) const;
+    Card card(const Page::Option& option) const;
+    void drawCard(const Card& card, double x, double width) const;
+    double column() const { return std::min(measure * em_, 0.86 * width_); }
+
+    cairo_t* cairo_;
+    const Palette& palette_;
+    double width_, em_;
+};
+
+struct Extent {
+    double width, height;
+};
+
+Extent extent(PangoLayout* layout) {
+    int width = 0, height = 0;
+    pango_layout_get_pixel_size(layout, &width, &height);
+    return {static_cast<double>(width), static_cast<double>(height)};
+}
+
+Layout Setter::lay(const std::string& text, double size, bool bold, double wrapAt) const {
+    Layout layout(pango_cairo_create_layout(cairo_));
+    const Font font(pango_font_description_from_string(family));
+    pango_font_description_set_absolute_size(font.get(), std::round(size * em_) * PANGO_SCALE);
+    pango_font_description_set_weight(font.get(), bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    pango_layout_set_font_description(layout.get(), font.get());
+    pango_layout_set_width(layout.get(), static_cast<int>(wrapAt) * PANGO_SCALE);
+    pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
+    pango_layout_set_line_spacing(layout.get(), lineSpacing);
+    pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+    return layout;
+}
+
+void Setter::rounded(double x, double top, double width, double height, double radius) const {
+    constexpr double quarter = 1.5707963267948966;
+    cairo_new_path(cairo_);
+    cairo_arc(cairo_, x + width - radius, top + radius, radius, -quarter, 0);
+    cairo_arc(cairo_, x + width - radius, top + height - radius, radius, 0, quarter);
+    cairo_arc(cairo_, x + radius, top + height - radius, radius, quarter, 2 * quarter);
+    cairo_arc(cairo_, x + radius, top + radius, radius, 2 * quarter, 3 * quarter);
+    cairo_close_path(cairo_);
+}
+
+void Setter::put(PangoLayout* layout, double x, double top) const {
+    cairo_move_to(cairo_, std::round(x), std::round(top));
+    pango_cairo_show_layout(cairo_, layout);
+}
+
+// The only thing on a page that is meant to be seen from across the room.
+void Setter::warning(const std::string& text) {
+    const Layout layout = lay(text, 0.8, true, 0.94 * width_);
+    pango_layout_set_alignment(layout.get(), PANGO_ALIGN_CENTER);
+    const double height = extent(layout.get()).height + 0.8 * em_;
+    if (drawing) {
+        ink(palette_.ink);
+        cairo_rectangle(cairo_, 0, 0, width_, height);
+        cairo_fill(cairo_);
+        ink(palette_.ink < 0.5 ? 1 : 0);
+        put(layout.get(), 0.03 * width_, 0.4 * em_);
+    }
+    y = height;
+}
+
+void Setter::paragraph(const std::string& text, double size, bool bold) {
+    if (text.empty())
+        return;
+    const Layout layout = lay(text, size, bold, column());
+    if (drawing) {
+        ink(palette_.ink);
+        put(layout.get(), (width_ - column()) / 2, y);
+    }
+    y += extent(layout.get()).height;
+}
+
+void Setter::field(const std::string& typed) {
+    const Layout layout = lay(typed + "\u2502", 1.1, false, column() - 1.2 * em_);
+    const double x = (width_ - column()) / 2, height = 2.2 * em_;
+    if (drawing) {
+        rounded(x, y, 16 * em_, height, 0.3 * em_);
+        ink(palette_.card);
+        cairo_fill_preserve(cairo_);
+        ink(palette_.edge);
+        cairo_set_line_width(cairo_, 2);
+        cairo_stroke(cairo_);
+        ink(palette_.ink);
+        put(layout.get(), x + 0.6 * em_, y + (height - extent(layout.get()).height) / 2);
+    }
+    y += height;
+}
+
+Setter::Card Setter::card(const Page::Option& option) const {
+    Card card{lay(option.key, 0.9, true, width_), lay(option.label, 1, false, 0.36 * width_)};
+    const Extent key = extent(card.key.get()), label = extent(card.label.get());
+    card.width = std::max(key.width, 1.0 * em_) + 1.0 * em_ + 1.6 * em_;
+    card.width += option.label.empty() ? 0 : label.width + 0.8 * em_;
+    card.height = std::max(key.height, label.height) + 1.8 * em_;
+    return card;
+}
+
+void Setter::drawCard(const Card& card, double x, double width) const {
+    rounded(x, y, width, card.height, 0.4 * em_);
+    ink(palette_.card);
+    cairo_fill_preserve(cairo_);
+    ink(palette_.edge);
+    cairo_set_line_width(cairo_, 2);
+    cairo_stroke(cairo_);
+
+    const Extent key = extent(card.key.get()), label = extent(card.label.get());
+    const double capWidth = std::max(key.width, 1.0 * em_) + 1.0 * em_, capHeight = key.height + 0.6 * em_;
+    const double left = std::round(x + (width - card.width) / 2 + 0.8 * em_);
+    const double middle = y + card.height / 2;
+    rounded(left, middle - capHeight / 2, capWidth, capHeight, 0.25 * em_);
+    ink(palette_.ink);
+    cairo_set_line_width(cairo_, 2);
+    cairo_stroke(cairo_);
+    put(card.key.get(), left + (capWidth - key.width) / 2, middle - key.height / 2);
+    put(card.label.get(), left + capWidth + 0.8 * em_, middle - label.height / 2);
+}
+
+// Side by side, of one size, centred: the first image's option is the left one.
+std::vector<Box> Setter::options(const std::vector<Page::Option>& options) {
+    std::vector<Card> cards;
+    double width = 0, height = 0;
+    for (const Page::Option& option : options) {
+        cards.push_back(card(option));
+        width = std::max(width, cards.back().width);
+        height = std::max(height, cards.back().height);
+    }
+    const double space = 1.6 * em_, count = static_cast<double>(cards.size());
+    double x = std::round((width_ - count * width - (count - 1) * space) / 2);
+    std::vector<Box> boxes;
+    for (Card& card : cards) {
+        card.height = height;
+        if (drawing)
+            drawCard(card, x, width);
+        boxes.push_back({static_cast<int>(x), static_cast<int>(y), static_cast<int>(width),
+                         static_cast<int>(height)});
+        x += width + space;
+    }
+    y += height;
+    return boxes;
+}
+
+struct Placed {
+    double bottom;
+    std::vector<Box> options;
+};
+
+// `top` is where the content begins, below the warning.
+Placed place(Setter& setter, const Page& page, double top) {
+    setter.y = top;
+    setter.paragraph(page.heading, 1.5, true);
+    setter.gap(page.heading.empty() ? 0 : 0.9);
+    setter.paragraph(page.text, 1);
+    if (page.hasField) {
+        setter.gap(1);
+        setter.field(page.field);
+    }
+    if (!page.note.empty()) {
+        setter.gap(0.8);
+        setter.paragraph(page.note, 0.8);
+    }
+    Placed placed{setter.y, {}};
+    if (!page.options.empty()) {
+        setter.gap(1.6);
+        placed.options = setter.options(page.options);
+        placed.bottom = setter.y;
+    }
+    return placed;
+}
+
+// Draws the page, or nothing when it does not fit with type of this size.
+std::optional<std::vector<Box>> trySize(cairo_t* cairo, const Page& page, const Palette& palette,
+                                        int width, int height, double em) {
+    Setter setter(cairo, palette, width, em);
+    if (!page.warning.empty())
+        setter.warning(page.warning);
+    const double top = setter.y, margin = 1.2 * em;
+    const double content = place(setter, page, 0).bottom;
+    const double room = height - top - 2 * margin;
+    if (content > room)
+        return std::nullopt;
+
+    setter.drawing = true;
+    if (!page.warning.empty())
+        setter.warning(page.warning);
+    // A little above the middle looks like the middle.
+    return place(setter, page, std::round(top + margin + 0.45 * (room - content))).options;
+}
+
+Image8 rgb(cairo_surface_t* surface, int width, int height) {
+    cairo_surface_flush(surface);
+    const unsigned char* data = cairo_image_surface_get_data(surface);
+    const int stride = cairo_image_surface_get_stride(surface);
+    Image8 image{width, height, 3, {}};
+    image.pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
+    for (int y = 0; y < height; ++y) {
+        const auto* row = reinterpret_cast<const std::uint32_t*>(data + std::ptrdiff_t{y} * stride);
+        for (int x = 0; x < width; ++x)
+            for (const int shift : {16, 8, 0})
+                image.pixels.push_back(static_cast<std::uint8_t>(row[x] >> shift));
+    }
+    return image;
+}
+
+} // namespace
+
+DrawnPage drawPage(const Page& page, int width, int height, int grey) {
+    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    const Cairo cairo(cairo_create(surface.get()));
+    const FontOptions fontOptions(cairo_font_options_create());
+    cairo_font_options_set_antialias(fontOptions.get(), CAIRO_ANTIALIAS_GRAY);
+    cairo_font_options_set_hint_style(fontOptions.get(), CAIRO_HINT_STYLE_SLIGHT);
+    cairo_set_font_options(cairo.get(), fontOptions.get());
+    const Palette palette = paletteFor(grey);
+    cairo_set_source_rgb(cairo.get(), palette.paper, palette.paper, palette.paper);
+    cairo_paint(cairo.get());
+
+    const double largest = std::min(height / 27.0, width / 40.0);
+    for (double em = largest; em >= 0.6 * largest; em -= 0.05 * largest)
+        if (auto options = trySize(cairo.get(), page, palette, width, height, std::round(em)))
+            return {rgb(surface.get(), width, height), std::move(*options)};
+    throw Error(fmt::format("a text is too long for a screen of {}x{} pixels, even in small type: "
+                            "\"{:.60}...\"; shorten it in the protocol",
+                            width, height, page.text));
+}
+
+} // namespace obscura

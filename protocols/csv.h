@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace obscura {
+
+// One record of a CSV text as RFC 4180 defines it; a quoted cell may hold commas and line feeds.
+struct CsvRecord {
+    std::vector<std::string> cells;
+    int line = 0;      // where it begins, from 1
+    bool ended = true; // false for a last record without line feed: a torn write
+    std::string fault; // why it cannot be split into cells; "" when it can
+};
+
+// Every record, the header's too. A faulty one ends with its first line, so that a stray quote
+// cannot swallow the records below it. Lines may end in CR LF, and the text may begin with a byte
+// order mark: spreadsheets write both.
+std::vector<CsvRecord> splitCsv(std::string_view text);
+
+// The value as one cell, quoted where it must be.
+std::string csvCell(std::string_view value);
+
+} // namespace obscura

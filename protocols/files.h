@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace obscura {
+
+// The whole file; an Error naming the path and the system's reason when it cannot be read.
+std::string readFile(const std::filesystem::path& path);
+
+// Writes beside the target, flushes to disk, then renames: a reader sees the old file or the new
+// one, never half of one. Creates missing parent folders.
+void writeFile(const std::filesystem::path& path, std::string_view content);
+
+// A name beside `path` for a file being written by another library; keeps the extension (writers
+// choose formats by it). Finish with publish(), which flushes it to disk and renames it to `path`.
+std::filesystem::path unfinishedPath(const std::filesystem::path& path);
+void publish(const std::filesystem::path& unfinished, const std::filesystem::path& path);
+
+// SHA-256 in parts. hex() ends it: 64 lower-case digits.
+class Sha256 {
+  public:
+    Sha256();
+    ~Sha256();
+    Sha256(Sha256&&) noexcept;
+    Sha256& operator=(Sha256&&) noexcept;
+
+    void add(std::span<const std::byte> bytes);
+    void add(std::string_view text) { add(std::as_bytes(std::span(text))); }
+    std::string hex();
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+std::string sha256(std::string_view content);
+std::string sha256File(const std::filesystem::path& path);
+
+} // namespace obscura

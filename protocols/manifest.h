@@ -1,0 +1,68 @@
+#pragma once
+
+#include "protocols/protocol.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// All that decides the pixels of one image: enough to render it again, byte for byte on the same
+// driver. Equal recipes give equal images.
+struct Recipe {
+    int width = 0, height = 0, antialiasing = 1;
+    std::uint64_t seed = 0;
+    View view;
+    std::string sceneSha256; // of the scene's files; of its name and program version when built in
+    Level level;
+    std::string environmentSha256; // "" without an environment image
+    std::string technique;         // id in the technique table
+    std::map<std::string, double> settings; // every parameter, defaults filled in, radius in metres
+    std::string shaderSha256; // of the text of every shader that made the image
+    std::string programVersion;
+    std::string glVendor, glRenderer, glVersion;
+
+    std::string json() const; // canonical: keys sorted, no white space
+    std::string sha256() const;
+};
+
+struct FileRecord {
+    std::string path; // relative to the manifest
+    std::string sha256;
+};
+
+struct ImageRecord {
+    std::string name; // of the technique setting: "blizzard24"
+    Recipe recipe;
+    std::string inputsSha256; // of the G-buffer and light buffers of every jittered frame, before AO
+    double meanOcclusion = 0; // 1 - visibility, averaged over the pixels that show a surface
+    FileRecord image;         // 8-bit sRGB PNG
+    std::map<std::string, FileRecord> layers; // "ao" always; "linear", "albedo", ... on request
+};
+
+struct PairRecord {
+    std::string condition; // id
+    std::string level, view, hypothesis;
+    double radius = 0; // metres, both members'
+    ImageRecord a, b;
+};
+
+// What obscura-stimuli wrote, and all that the presenter and the report need to know of it.
+struct Manifest {
+    std::string study, title;
+    std::string protocolSha256;
+    std::string commit;
+    int width = 0, height = 0;
+    std::vector<PairRecord> pairs;
+    FileRecord contactSheet;
+
+    std::filesystem::path folder; // where it was read from; paths are relative to it
+};
+
+// manifest.json of a stimulus folder. Reading checks every field and names the one that is amiss.
+Manifest readManifest(const std::filesystem::path& path);
+void writeManifest(const std::filesystem::path& path, const Manifest& manifest);
+
+} // namespace obscura

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace obscura {
+
+// A progress line on stderr: what is done, how much, how long it will still take. On a terminal
+// the line rewrites itself; elsewhere (a log) a new line appears at most every five seconds.
+// Time left is estimated from the finished part's rate.
+class Progress {
+  public:
+    Progress(std::string label, double total);
+    ~Progress(); // ends the line
+
+    // `done` counts in the units of `total`; `note` names the item at hand.
+    void update(double done, const std::string& note = {});
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void print(double done, const std::string& note, bool last);
+
+    std::string label_;
+    double total_;
+    double done_ = 0;
+    bool terminal_;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point printed_{};
+};
+
+} // namespace obscura

@@ -1,0 +1,158 @@
+#pragma once
+
+#include "protocols/error.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// A study as one TOML file says it. parseProtocol() checks everything that needs neither the
+// technique table nor a scene file: what it returns has no unknown key, wrong type, value out of
+// range, or pair whose members differ in more than the technique. docs/protocols.md has each key.
+
+using Vec3 = std::array<double, 3>;
+
+struct Camera {
+    Vec3 position{};          // metres of the scene, y up
+    Vec3 target{};            // the point looked at; its distance is the focus distance
+    Vec3 up{0, 1, 0};         //
+    double fovDegrees = 50;   // vertical, 1 ... 120
+    double near = 0.05;       // metres
+};
+
+// A scene seen from one camera.
+struct View {
+    std::string name;
+    std::string file;    // glTF file, relative to the scenes folder; or empty, and then
+    std::string builtin; // "sculpture", "atrium" or "figures"
+    Camera camera;
+    double radius = 0;   // metres: how far occlusion reaches, the same for every technique here
+    double exposure = 0; // stops: light is scaled by 2^exposure before the display curve
+    Place place;
+};
+
+// A sky of three colours, blended by elevation; radiance in scene units (1 = display white).
+struct Sky {
+    Vec3 zenith{0.25, 0.42, 0.75};
+    Vec3 horizon{0.75, 0.82, 0.9};
+    Vec3 ground{0.22, 0.2, 0.18};
+};
+
+struct Sun {
+    double azimuthDegrees = 0;    // from +z towards +x
+    double elevationDegrees = 45; // above the horizon, 0 ... 90
+    Vec3 irradiance{3, 2.9, 2.7}; // on a surface that faces it
+};
+
+enum class Curve { clamp, reinhard };
+
+// Lighting of one complexity level (thesis 5.3). Exactly one of: constant ambient light on a plain
+// background; a sky; an environment image. The sun may be added to any of them.
+struct Level {
+    std::string name;
+    std::optional<Vec3> ambient;    // constant light from everywhere
+    Vec3 background{1, 1, 1};       // seen where no surface is; only with `ambient`
+    std::optional<Sky> sky;
+    std::string environment;        // equirectangular HDR image, relative to the protocol's folder
+    std::optional<Sun> sun;
+    Curve curve = Curve::reinhard;  // display curve
+    double white = 4;               // the luminance that Reinhard's curve maps to display white
+    bool occludeDirect = false;     // occlude the sun's light as well
+    Place place;
+};
+
+struct Setting {
+    std::string name;
+    double value = 0;
+    Place place;
+};
+
+// A technique with the settings that differ from its defaults, under a name of the study's own
+// ("blizzard24"). The renderer checks both against its technique table.
+struct TechniqueSetting {
+    std::string name;
+    std::string technique;
+    std::vector<Setting> settings;
+    Place place;
+};
+
+// How a simulated participant answers; never used for real ones.
+struct SimulatedChoice {
+    double chooseB = 0.5; // probability of choosing member b, before position bias
+};
+
+// Two images alike in everything but the technique: member 0 is "a", member 1 is "b".
+struct Condition {
+    std::string id;
+    std::string view;  // name of one of `views`
+    std::string level; // name of one of `levels`
+    std::string hypothesis;
+    std::array<std::string, 2> pair; // names of `techniques`
+    SimulatedChoice simulated;
+    Place place;
+};
+
+// image 1, grey mask, image 2, forced choice.
+struct Trial {
+    double mask = 2;         // seconds of grey between the images; cannot be skipped
+    int grey = 128;          // code value of mask and surround, 0 ... 255
+    double minimumView = 0;  // seconds during which Space does not yet end an image
+};
+
+enum class OrderScheme { thesis };
+
+struct Ordering {
+    OrderScheme scheme = OrderScheme::thesis;
+    int participants = 28; // planned; what --simulate runs when no number is given
+};
+
+// What participants read, UTF-8.
+struct Texts {
+    std::string instructions, start, question, first, second, thanks;
+};
+
+// The stated model of simulated reaction: times are ex-Gaussian (mean and standard deviation of
+// the Gaussian part, mean of the exponential part), in seconds.
+struct ExGaussian {
+    double mean = 0, deviation = 0, tail = 0;
+};
+struct Simulation {
+    double positionBias = 0; // added to the probability of choosing the second image, -0.5 ... 0.5
+    ExGaussian view{3.0, 0.8, 2.0};
+    ExGaussian decision{0.9, 0.2, 0.5};
+};
+
+struct Protocol {
+    std::string name;  // lower-case letters, digits and hyphens; names the data folder
+    std::string title;
+    std::uint64_t seed = 0;
+    int width = 1280, height = 720;
+    int antialiasing = 4; // jittered frames averaged per image
+    std::vector<View> views;
+    std::vector<Level> levels;
+    std::vector<TechniqueSetting> techniques;
+    std::vector<Condition> conditions;
+    Trial trial;
+    Ordering ordering;
+    Texts texts;
+    Simulation simulation;
+
+    std::filesystem::path path; // where it was read; "" when parsed from text
+    std::string sha256;         // of the file's bytes
+
+    // By name; the parser has made sure that those of a condition exist.
+    const View& view(const std::string& name) const;
+    const Level& level(const std::string& name) const;
+    const TechniqueSetting& technique(const std::string& name) const;
+};
+
+// `file` is the name that errors give. Throws Error with line and column.
+Protocol parseProtocol(const std::string& text, const std::string& file);
+Protocol readProtocol(const std::filesystem::path& path);
+
+} // namespace obscura

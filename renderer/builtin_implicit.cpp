@@ -1,0 +1,191 @@
+#include "renderer/builtin_implicit.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace obscura::builtin {
+
+glm::vec3 gradient(const Field& field, glm::vec3 p, float step) {
+    // Four samples at a tetrahedron's corners.
+    glm::vec3 sum(0);
+    for (const glm::vec3 corner : {glm::vec3(1, -1, -1), {-1, -1, 1}, {-1, 1, -1}, {1, 1, 1}})
+        sum += corner * field(p + step * corner);
+    return sum / (4 * step);
+}
+
+float merge(float a, float b, float blend) {
+    const float t = std::max(blend - std::abs(a - b), 0.0F) / blend;
+    return std::min(a, b) - t * t * blend / 4;
+}
+
+float cut(float solid, float hole, float blend) { return -merge(-solid, hole, blend); }
+
+float ellipsoid(glm::vec3 p, glm::vec3 radii) {
+    const float scaled = glm::length(p / radii);
+    const float steepness = glm::length(p / (radii * radii));
+    const float least = std::min({radii.x, radii.y, radii.z});
+    return steepness > 1e-6F ? scaled * (scaled - 1) / steepness : -least;
+}
+
+float roundedBox(glm::vec3 p, glm::vec3 half, float radius) {
+    const glm::vec3 q = glm::abs(p) - half + radius;
+    return glm::length(glm::max(q, 0.0F)) + std::min(std::max({q.x, q.y, q.z}), 0.0F) - radius;
+}
+
+float limb(glm::vec3 p, glm::vec3 a, glm::vec3 b, float ra, float rb) {
+    const glm::vec3 axis = b - a;
+    const float t = glm::clamp(glm::dot(p - a, axis) / glm::dot(axis, axis), 0.0F, 1.0F);
+    return glm::length(p - a - t * axis) - glm::mix(ra, rb, t);
+}
+
+glm::vec3 turned(glm::vec3 p, int axis, float degrees) {
+    const float c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    glm::vec3 q = p;
+    q[u] = c * p[u] - s * p[v];
+    q[v] = s * p[u] + c * p[v];
+    return q;
+}
+
+namespace {
+
+constexpr int block = 8; // cells; blocks that the surface cannot reach are not sampled
+
+class Net {
+  public:
+    Net(const Field& field, const Bounds& box, float cell)
+        : field_(field), low_(box.low), cell_(cell),
+          cells_(glm::ivec3(glm::ceil((box.high - box.low) / (cell * block))) * block),
+          values_(count(cells_ + 1)), vertexOf_(count(cells_)) {}
+
+    Shape surface() {
+        sample();
+        forEach(glm::ivec3(0), cells_, [&](glm::ivec3 c) { addVertex(c); });
+        forEach(glm::ivec3(1), cells_, [&](glm::ivec3 c) { addFaces(c); });
+        return std::move(shape_);
+    }
+
+  private:
+    static std::size_t count(glm::ivec3 n) {
+        return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) *
+               static_cast<std::size_t>(n.z);
+    }
+    template <typename Visit>
+    static void forEach(glm::ivec3 low, glm::ivec3 high, const Visit& visit) {
+        for (int z = low.z; z < high.z; ++z)
+            for (int y = low.y; y < high.y; ++y)
+                for (int x = low.x; x < high.x; ++x)
+                    visit(glm::ivec3(x, y, z));
+    }
+    static std::size_t index(glm::ivec3 p, glm::ivec3 n) {
+        return static_cast<std::size_t>((p.z * n.y + p.y) * n.x + p.x);
+    }
+    glm::vec3 place(glm::ivec3 p) const { return low_ + cell_ * glm::vec3(p); }
+    float value(glm::ivec3 p) const { return values_[index(p, cells_ + 1)]; }
+
+    void sample();
+    void addVertex(glm::ivec3 cell);
+    glm::vec3 settled(glm::vec3 p, glm::ivec3 cell) const;
+    void addFaces(glm::ivec3 corner);
+    void addQuad(std::array<std::uint32_t, 4> q);
+
+    const Field& field_;
+    glm::vec3 low_;
+    float cell_;
+    glm::ivec3 cells_;
+    std::vector<float> values_;
+    std::vector<std::uint32_t> vertexOf_;
+    Shape shape_;
+};
+
+void Net::sample() {
+    // Half a block's diagonal, with the third by which the field may exceed the distance.
+    const float reach = 1.34F * 0.5F * static_cast<float>(block) * cell_ * std::sqrt(3.0F);
+    forEach(glm::ivec3(0), cells_ / block, [&](glm::ivec3 b) {
+        const glm::ivec3 low = b * block;
+        const float middle = field_(place(low) + 0.5F * static_cast<float>(block) * cell_);
+        const bool far = std::abs(middle) > reach;
+        // The last block of a row samples its far side too.
+        const glm::ivec3 high = low + block + glm::ivec3(glm::equal(low + block, cells_));
+        forEach(low, high, [&](glm::ivec3 p) {
+            values_[index(p, cells_ + 1)] = far ? middle : field_(place(p));
+        });
+    });
+}
+
+// Onto the surface, as far as the cell allows.
+glm::vec3 Net::settled(glm::vec3 p, glm::ivec3 cell) const {
+    const glm::vec3 slope = gradient(field_, p, 0.1F * cell_);
+    const glm::vec3 moved = p - slope * field_(p) / std::max(glm::dot(slope, slope), 0.25F);
+    return glm::clamp(moved, place(cell) + 0.05F * cell_, place(cell) + 0.95F * cell_);
+}
+
+void Net::addVertex(glm::ivec3 cell) {
+    glm::vec3 sum(0);
+    float crossings = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int edge = 0; edge < 4; ++edge) {
+            glm::ivec3 from = cell, step(0);
+            from[(axis + 1) % 3] += edge & 1;
+            from[(axis + 2) % 3] += edge >> 1;
+            step[axis] = 1;
+            const float a = value(from), b = value(from + step);
+            if ((a < 0) == (b < 0))
+                continue;
+            sum += glm::vec3(from) + glm::vec3(step) * (a / (a - b));
+            crossings += 1;
+        }
+    if (crossings == 0)
+        return;
+    vertexOf_[index(cell, cells_)] = static_cast<std::uint32_t>(shape_.vertices.size());
+    Vertex vertex;
+    vertex.position = settled(low_ + cell_ * sum / crossings, cell);
+    vertex.normal = glm::normalize(gradient(field_, vertex.position, 0.5F * cell_));
+    shape_.vertices.push_back(vertex);
+}
+
+// The four cells round each edge that leaves `corner` upwards along an axis.
+void Net::addFaces(glm::ivec3 corner) {
+    for (int axis = 0; axis < 3; ++axis) {
+        glm::ivec3 step(0), u(0), v(0);
+        step[axis] = 1;
+        u[(axis + 1) % 3] = 1;
+        v[(axis + 2) % 3] = 1;
+        const bool inside = value(corner) < 0;
+        if (inside == (value(corner + step) < 0))
+            continue;
+        const auto vertex = [&](glm::ivec3 cell) { return vertexOf_[index(cell, cells_)]; };
+        std::array<std::uint32_t, 4> quad{vertex(corner - u - v), vertex(corner - v),
+                                          vertex(corner), vertex(corner - u)};
+        if (!inside)
+            std::swap(quad[1], quad[3]);
+        addQuad(quad);
+    }
+}
+
+// Split where its two triangles agree best with the normals of the surface.
+void Net::addQuad(std::array<std::uint32_t, 4> q) {
+    const auto agreement = [&](std::size_t a, std::size_t b, std::size_t c) {
+        const Vertex &va = shape_.vertices[q[a]], &vb = shape_.vertices[q[b]],
+                     &vc = shape_.vertices[q[c]];
+        const glm::vec3 face = glm::cross(vb.position - va.position, vc.position - va.position);
+        return glm::dot(face, va.normal + vb.normal + vc.normal) /
+               (glm::length(face) + 1e-3F * cell_ * cell_);
+    };
+    const float first = std::min(agreement(0, 1, 2), agreement(0, 2, 3));
+    const float second = std::min(agreement(0, 1, 3), agreement(1, 2, 3));
+    const std::array<std::size_t, 6> corners = first >= second
+                                                   ? std::array<std::size_t, 6>{0, 1, 2, 0, 2, 3}
+                                                   : std::array<std::size_t, 6>{0, 1, 3, 1, 2, 3};
+    for (std::size_t i = 0; i < 6; i += 3)
+        shape_.addTriangle(q[corners[i]], q[corners[i + 1]], q[corners[i + 2]]);
+}
+
+} // namespace
+
+Shape surfaceOf(const Field& field, const Bounds& box, float cell) {
+    return Net(field, box, cell).surface();
+}
+
+} // namespace obscura::builtin

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace obscura::builtin {
+
+// Smooth noise over a lattice of random values (value noise with Perlin's quintic fade). The same
+// numbers on every machine: the lattice comes from Random, and the rest is arithmetic.
+class Noise {
+  public:
+    explicit Noise(std::string_view purpose);
+
+    float value(glm::vec3 p) const; // -1 ... 1
+    // Repeats every `period` in both directions.
+    float value(glm::vec2 p, int period) const;
+    // `octaves` of the above, each half as high and twice as fine.
+    float clouds(glm::vec2 p, int period, int octaves) const;
+    float cell(int x, int y) const; // one lattice value, 0 ... 1
+
+  private:
+    float lattice(int x, int y, int z) const;
+
+    std::array<std::uint8_t, 256> order_{};
+    std::array<float, 256> values_{};
+};
+
+} // namespace obscura::builtin

@@ -1,0 +1,313 @@
+#include "renderer/builtin_shapes.h"
+
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace obscura::builtin {
+
+void Shape::add(const Shape& part, const glm::mat4& place) {
+    const glm::mat3 turn(place);
+    const glm::mat3 normalTurn = glm::transpose(glm::inverse(turn));
+    const auto first = static_cast<std::uint32_t>(vertices.size());
+    for (Vertex vertex : part.vertices) {
+        vertex.position = glm::vec3(place * glm::vec4(vertex.position, 1));
+        vertex.normal = glm::normalize(normalTurn * vertex.normal);
+        vertices.push_back(vertex);
+    }
+    const bool mirrored = glm::determinant(turn) < 0;
+    for (std::size_t i = 0; i < part.indices.size(); i += 3) {
+        indices.push_back(first + part.indices[i]);
+        indices.push_back(first + part.indices[i + (mirrored ? 2 : 1)]);
+        indices.push_back(first + part.indices[i + (mirrored ? 1 : 2)]);
+    }
+}
+
+void Shape::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    const glm::vec3 corner = vertices[a].position;
+    const glm::vec3 doubleArea =
+        glm::cross(vertices[b].position - corner, vertices[c].position - corner);
+    if (glm::length(doubleArea) > 1e-8F) // 0.01 mm²
+        indices.insert(indices.end(), {a, b, c});
+}
+
+void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres) {
+    Mesh mesh;
+    mesh.firstIndex = static_cast<std::uint32_t>(scene.indices.size());
+    mesh.indexCount = static_cast<std::uint32_t>(shape.indices.size());
+    mesh.material = material;
+    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
+    for (Vertex vertex : shape.vertices) {
+        vertex.uv /= textureMetres;
+        scene.vertices.push_back(vertex);
+    }
+    for (const std::uint32_t index : shape.indices)
+        scene.indices.push_back(first + index);
+    scene.meshes.push_back(mesh);
+    if (scene.materials[static_cast<std::size_t>(material)].normalTexture >= 0)
+        deriveTangents(scene, mesh);
+}
+
+glm::mat4 at(glm::vec3 position, float turnDegrees) {
+    return glm::rotate(glm::translate(glm::mat4(1), position), glm::radians(turnDegrees),
+                       glm::vec3(0, 1, 0));
+}
+
+namespace {
+
+// Two triangles for each cell of a grid of vertices that lie row by row, as the last ones added.
+void addCells(Shape& shape, int across, int up) {
+    const int row = across + 1;
+    const int first = static_cast<int>(shape.vertices.size()) - row * (up + 1);
+    for (int j = 0; j < up; ++j)
+        for (int i = 0; i < across; ++i) {
+            const auto a = static_cast<std::uint32_t>(first + j * row + i);
+            const auto b = a + static_cast<std::uint32_t>(row);
+            shape.addTriangle(a, a + 1, b + 1);
+            shape.addTriangle(a, b + 1, b);
+        }
+}
+
+// By differences that stay inside the unit square; at a pole, from a little way off.
+glm::vec3 normalOf(const Surface& surface, glm::vec2 uv) {
+    const float step = 1e-3F;
+    const glm::vec2 low = glm::max(uv - step, 0.0F);
+    const glm::vec2 high = glm::min(uv + step, 1.0F);
+    const glm::vec3 du = surface({high.x, uv.y}) - surface({low.x, uv.y});
+    const glm::vec3 dv = surface({uv.x, high.y}) - surface({uv.x, low.y});
+    const glm::vec3 normal = glm::cross(du, dv);
+    if (glm::length(normal) > 1e-3F * (glm::dot(du, du) + glm::dot(dv, dv)))
+        return glm::normalize(normal);
+    return normalOf(surface, glm::mix(uv, glm::vec2(0.5F), 0.02F));
+}
+
+} // namespace
+
+Shape patch(const Surface& surface, int across, int up, glm::vec2 metres) {
+    Shape shape;
+    for (int j = 0; j <= up; ++j)
+        for (int i = 0; i <= across; ++i) {
+            const glm::vec2 uv(part(i, across), part(j, up));
+            shape.vertices.push_back({surface(uv), normalOf(surface, uv), {}, uv * metres});
+        }
+    addCells(shape, across, up);
+    return shape;
+}
+
+void addArc(Outline& outline, glm::vec2 centre, float radius, float fromDegrees, float toDegrees,
+            int steps) {
+    for (int i = 0; i <= steps; ++i) {
+        const float angle = glm::radians(glm::mix(fromDegrees, toDegrees, part(i, steps)));
+        outline.push_back(centre + radius * glm::vec2(std::cos(angle), std::sin(angle)));
+    }
+}
+
+Outline circle(float radius, int steps) {
+    Outline outline;
+    addArc(outline, {0, 0}, radius, 0, 360, steps);
+    outline.back() = outline.front();
+    return outline;
+}
+
+namespace {
+
+struct Corner {
+    glm::vec2 point, normal;
+    float along;
+};
+
+glm::vec2 rightOf(glm::vec2 from, glm::vec2 to) {
+    const glm::vec2 direction = glm::normalize(to - from);
+    return {direction.y, -direction.x};
+}
+
+// The outline with a normal at each point; a sharp edge has two corners in one place.
+std::vector<Corner> cornersOf(Outline outline) {
+    outline.erase(std::unique(outline.begin(), outline.end()), outline.end());
+    const std::size_t last = outline.size() - 1;
+    const bool closed = outline.front() == outline.back();
+    std::vector<Corner> corners;
+    float along = 0;
+    for (std::size_t i = 0; i <= last; ++i) {
+        along += i > 0 ? glm::distance(outline[i - 1], outline[i]) : 0;
+        const std::size_t before = i > 0 ? i - 1 : (closed ? last - 1 : 0);
+        const std::size_t after = i < last ? i + 1 : (closed ? 1 : last);
+        const bool first = before == i, end = after == i;
+        const glm::vec2 in = rightOf(outline[first ? i : before], outline[first ? i + 1 : i]);
+        const glm::vec2 out = rightOf(outline[end ? i - 1 : i], outline[end ? i : after]);
+        if (glm::dot(in, out) > 0.82F) // the cosine of 35 degrees
+            corners.push_back({outline[i], glm::normalize(in + out), along});
+        else
+            corners.insert(corners.end(), {{outline[i], in, along}, {outline[i], out, along}});
+    }
+    return corners;
+}
+
+} // namespace
+
+Shape sweep(const Outline& outline, std::span<const Station> stations) {
+    Shape shape;
+    const std::vector<Corner> corners = cornersOf(outline);
+    for (const Corner& corner : corners)
+        for (const Station& station : stations) {
+            Vertex vertex;
+            vertex.position =
+                station.origin + corner.point.x * station.across + corner.point.y * station.up;
+            vertex.normal = glm::normalize(corner.normal.x * station.facing +
+                                           corner.normal.y * glm::normalize(station.up));
+            vertex.uv = {station.along, corner.along};
+            shape.vertices.push_back(vertex);
+        }
+    addCells(shape, static_cast<int>(stations.size()) - 1, static_cast<int>(corners.size()) - 1);
+    return shape;
+}
+
+Shape lathe(const Outline& outline, int segments) {
+    float widest = 0;
+    for (const glm::vec2& point : outline)
+        widest = std::max(widest, point.x);
+    std::vector<Station> stations;
+    for (int i = 0; i <= segments; ++i) {
+        const float angle = glm::two_pi<float>() * part(i % segments, segments);
+        const glm::vec3 out(std::sin(angle), 0, std::cos(angle));
+        const float along = glm::two_pi<float>() * part(i, segments) * widest;
+        stations.push_back({{0, 0, 0}, out, {0, 1, 0}, out, along});
+    }
+    return sweep(outline, stations);
+}
+
+Shape moulding(const Outline& outline, std::span<const glm::vec2> plan) {
+    const auto right = [&](std::size_t i) { // of the side that begins at point i
+        const glm::vec2 side = plan[(i + 1) % plan.size()] - plan[i % plan.size()];
+        return glm::normalize(glm::vec3(-side.y, 0, side.x));
+    };
+    Shape shape;
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const std::size_t next = (i + 1) % plan.size();
+        const glm::vec3 facing = right(i);
+        const auto mitre = [&](glm::vec3 other) {
+            return (facing + other) / (1 + glm::dot(facing, other));
+        };
+        const float length = glm::distance(plan[i], plan[next]);
+        const std::array<Station, 2> stations{
+            Station{{plan[i].x, 0, plan[i].y}, mitre(right(i + plan.size() - 1)), {0, 1, 0},
+                    facing, 0},
+            Station{{plan[next].x, 0, plan[next].y}, mitre(right(next)), {0, 1, 0}, facing,
+                    length}};
+        shape.add(sweep(outline, stations));
+    }
+    return shape;
+}
+
+Shape pillar(const Outline& outline, glm::vec2 size) {
+    const glm::vec2 half = size / 2.0F;
+    const std::array<glm::vec2, 4> plan{half, glm::vec2(half.x, -half.y), -half,
+                                        glm::vec2(-half.x, half.y)};
+    return moulding(outline, plan);
+}
+
+Shape arch(const Outline& outline, std::span<const glm::vec3> path, glm::vec3 centre) {
+    std::vector<Station> stations;
+    float along = 0;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const std::size_t before = i > 0 ? i - 1 : 0;
+        const std::size_t after = std::min(i + 1, path.size() - 1);
+        along += glm::distance(path[before], path[i]);
+        const glm::vec3 direction = glm::normalize(path[after] - path[before]);
+        const glm::vec3 outwards = path[i] - centre;
+        const glm::vec3 across =
+            glm::normalize(outwards - glm::dot(outwards, direction) * direction);
+        stations.push_back({path[i], across, glm::cross(across, direction), across, along});
+    }
+    return sweep(outline, stations);
+}
+
+void deform(Shape& shape, const Mapping& mapping) {
+    const float step = 1e-3F;
+    for (Vertex& vertex : shape.vertices) {
+        glm::mat3 slope;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 offset(0);
+            offset[axis] = step;
+            slope[axis] = mapping(vertex.position + offset) - mapping(vertex.position - offset);
+        }
+        vertex.normal = glm::normalize(glm::inverse(glm::transpose(slope / (2 * step))) *
+                                       vertex.normal);
+        vertex.position = mapping(vertex.position);
+    }
+}
+
+void projectUv(Shape& shape) {
+    for (Vertex& vertex : shape.vertices) {
+        const glm::vec3 size = glm::abs(vertex.normal);
+        const glm::vec3 p = vertex.position;
+        if (size.y >= size.x && size.y >= size.z)
+            vertex.uv = {p.x, p.z};
+        else
+            vertex.uv = {size.x >= size.z ? p.z : p.x, -p.y};
+    }
+}
+
+namespace {
+
+// The chamfered box's vertex on face (axis, sign) nearest to the corner with the given signs.
+Vertex boxVertex(glm::vec3 size, float bevel, int axis, glm::vec3 corner) {
+    Vertex vertex;
+    vertex.position = corner * (size / 2.0F - bevel);
+    vertex.position[axis] = corner[axis] * size[axis] / 2.0F;
+    vertex.normal[axis] = corner[axis];
+    const int u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
+    vertex.uv = {vertex.position[u], -vertex.position[v]};
+    return vertex;
+}
+
+// A convex polygon, turned so that it faces away from the box's centre.
+void addPolygon(Shape& shape, std::vector<Vertex> corners) {
+    const glm::vec3 a = corners[0].position;
+    const glm::vec3 normal = glm::cross(corners[1].position - a, corners[2].position - a);
+    if (glm::dot(normal, a) < 0)
+        std::reverse(corners.begin(), corners.end());
+    const auto first = static_cast<std::uint32_t>(shape.vertices.size());
+    shape.vertices.insert(shape.vertices.end(), corners.begin(), corners.end());
+    for (std::uint32_t i = 2; i < corners.size(); ++i)
+        shape.addTriangle(first, first + i - 1, first + i);
+}
+
+// The face, chamfers and corners that belong to one end of one axis.
+void addBoxEnd(Shape& shape, glm::vec3 size, float bevel, int axis, float sign) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const auto corner = [&](float su, float sv) {
+        glm::vec3 signs(sign);
+        signs[u] = su;
+        signs[v] = sv;
+        return signs;
+    };
+    const auto vertex = [&](int face, glm::vec3 signs) {
+        return boxVertex(size, bevel, face, signs);
+    };
+    addPolygon(shape, {vertex(axis, corner(-1, -1)), vertex(axis, corner(1, -1)),
+                       vertex(axis, corner(1, 1)), vertex(axis, corner(-1, 1))});
+    for (const float side : {-1.0F, 1.0F}) // the chamfers towards axis u
+        addPolygon(shape, {vertex(axis, corner(side, -1)), vertex(axis, corner(side, 1)),
+                           vertex(u, corner(side, 1)), vertex(u, corner(side, -1))});
+    if (axis == 0)
+        for (const glm::vec2 signs : {glm::vec2(1, 1), {1, -1}, {-1, 1}, {-1, -1}})
+            addPolygon(shape, {vertex(0, corner(signs.x, signs.y)),
+                               vertex(1, corner(signs.x, signs.y)),
+                               vertex(2, corner(signs.x, signs.y))});
+}
+
+} // namespace
+
+Shape box(glm::vec3 size, float bevel) {
+    Shape shape;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float sign : {-1.0F, 1.0F})
+            addBoxEnd(shape, size, bevel, axis, sign);
+    return shape;
+}
+
+} // namespace obscura::builtin

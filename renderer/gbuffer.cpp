@@ -1,0 +1,146 @@
+#include "renderer/gbuffer.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace obscura {
+
+namespace {
+
+glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+// Beyond every corner of the scene, so that no surface is taken for an empty pixel.
+double emptyDepth(const glm::dmat4& viewFromWorld, const Bounds& bounds, double near) {
+    double farthest = near;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 position(corner & 1 ? bounds.high.x : bounds.low.x,
+                                  corner & 2 ? bounds.high.y : bounds.low.y,
+                                  corner & 4 ? bounds.high.z : bounds.low.z);
+        farthest = std::max(farthest, -(viewFromWorld * glm::dvec4(position, 1)).z);
+    }
+    return farthest * 1.01 + near;
+}
+
+std::span<const std::byte> bytesOf(const std::vector<Vertex>& vertices) {
+    return std::as_bytes(std::span(vertices));
+}
+
+} // namespace
+
+Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
+                std::uint64_t seed, glm::vec2 jitter) {
+    const glm::dmat4 viewFromWorld =
+        glm::lookAt(vec(camera.position), vec(camera.target), vec(camera.up));
+    const double scaleY = 1 / std::tan(glm::radians(camera.fovDegrees) / 2);
+    const double scaleX = scaleY * height / width;
+    const double shiftX = 2.0 * static_cast<double>(jitter.x) / width;
+    const double shiftY = 2.0 * static_cast<double>(jitter.y) / height;
+
+    // Reversed depth with no far plane: z_clip = near, w = -z_view.
+    glm::dmat4 clipFromView(0);
+    clipFromView[0][0] = scaleX;
+    clipFromView[1][1] = scaleY;
+    clipFromView[2] = {-shiftX, -shiftY, 0, -1};
+    clipFromView[3][2] = camera.near;
+
+    Frame frame;
+    frame.viewFromWorld = glm::mat4(viewFromWorld);
+    frame.worldFromView = glm::mat4(glm::inverse(viewFromWorld));
+    frame.clipFromView = glm::mat4(clipFromView);
+    frame.viewFromUv = glm::vec4(2 / scaleX, 2 / scaleY, (-1 - shiftX) / scaleX,
+                                 (-1 - shiftY) / scaleY);
+    frame.size = glm::vec4(width, height, 1.0 / width, 1.0 / height);
+    const double focus = glm::distance(vec(camera.position), vec(camera.target));
+    frame.depth = glm::vec4(camera.near, emptyDepth(viewFromWorld, bounds, camera.near), focus,
+                            scaleY / 2);
+    frame.seed = glm::ivec4(static_cast<int>(seed & 0x7fffffff), 0, 0, 0);
+    return frame;
+}
+
+GpuScene::GpuScene(const Scene& scene)
+    : bounds_(scene.bounds()), meshes_(scene.meshes), materials_(scene.materials),
+      geometry_(bytesOf(scene.vertices), std::array{3, 3, 4, 2}, scene.indices),
+      white_(gl::constantTexture({1, 1, 1, 1})) {
+    for (const Texture& texture : scene.textures)
+        textures_.push_back(gl::imageTexture(texture.image.width, texture.image.height,
+                                             texture.srgb, texture.image.pixels,
+                                             {texture.repeatU, texture.repeatV}));
+}
+
+const gl::Texture& GpuScene::texture(int index) const {
+    return index < 0 ? white_ : textures_[static_cast<std::size_t>(index)];
+}
+
+void GpuScene::draw(const gl::Program& program, bool cullBackFaces, gl::State state) const {
+    geometry_.bind();
+    for (const Mesh& mesh : meshes_) {
+        const Material& material = materials_[static_cast<std::size_t>(mesh.material)];
+        state.cullBack = cullBackFaces && !material.doubleSided;
+        state.apply();
+        gl::bindTexture(0, texture(material.baseColourTexture));
+        gl::bindTexture(1, texture(material.normalTexture));
+        gl::bindTexture(2, texture(material.metallicRoughnessTexture));
+        program.set("baseColour", std::span<const float, 4>(glm::value_ptr(material.baseColour), 4));
+        const float surface[4] = {material.alphaCutoff, material.metallic, material.roughness,
+                                  material.normalTexture < 0 ? 0.0f : material.normalScale};
+        program.set("surface", std::span<const float, 4>(surface));
+        geometry_.draw(mesh.firstIndex, mesh.indexCount);
+    }
+}
+
+namespace {
+
+std::vector<gl::Format> gbufferFormats(bool normals) {
+    std::vector<gl::Format> formats{gl::Format::srgb8, gl::Format::r32f};
+    if (normals)
+        formats.push_back(gl::Format::rgba16f);
+    return formats;
+}
+
+} // namespace
+
+GBuffer::GBuffer(int width, int height, bool normals)
+    : target_(width, height, gbufferFormats(normals), true, "G-buffer") {}
+
+gl::UniformBuffer frameBuffer(const Frame& frame) {
+    return gl::UniformBuffer(std::as_bytes(std::span(&frame, 1)));
+}
+
+void bindFrame(const gl::UniformBuffer& frame) { frame.bind(0); }
+
+GBufferPass::GBufferPass()
+    : program_("G-buffer", shaderText("gbuffer.vert"), shaderText("gbuffer.frag")) {}
+
+void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer& gbuffer) const {
+    const gl::Target& target = gbuffer.target();
+    target.bind();
+    gl::State{}.apply();
+    target.clear(0, {0, 0, 0, 0});
+    target.clear(1, {frame.depth.y, 0, 0, 0});
+    if (gbuffer.normal())
+        target.clear(2, {0, 0, 1, 1});
+    gl::State state;
+    state.depth = gl::State::Depth::reversed;
+    state.apply();
+    target.clearDepth(0);
+    program_.use();
+    scene.draw(program_, true, state);
+}
+
+std::filesystem::path shaderFolder() {
+    const char* folder = std::getenv("OBSCURA_SHADERS");
+    return folder ? folder : OBSCURA_SHADERS;
+}
+
+gl::ShaderText shaderText(const std::string& name) {
+    gl::ShaderText text;
+    text.addFile(shaderFolder(), "frame.h");
+    text.add("layout(std140, binding = 0) uniform FrameBlock { Frame frame; };", "(frame block)");
+    text.addFile(shaderFolder(), name);
+    return text;
+}
+
+} // namespace obscura

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "protocols/protocol.h"
+#include "renderer/gl/draw.h"
+#include "renderer/gl/program.h"
+#include "renderer/gl/target.h"
+#include "renderer/scene.h"
+#include "renderer/shaders/frame.h"
+
+#include <optional>
+
+namespace obscura {
+
+// Where a camera's pixels are. `bounds` decides the depth of empty pixels (beyond the scene);
+// `jitter` moves the image by a fraction of a pixel, -0.5 ... 0.5.
+Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
+                std::uint64_t seed, glm::vec2 jitter = {0, 0});
+
+// A scene where the GPU can read it.
+class GpuScene {
+  public:
+    explicit GpuScene(const Scene& scene);
+
+    const Bounds& bounds() const { return bounds_; }
+    // Draws everything with the program that is in use. Samplers: 0 base colour, 1 normal map,
+    // 2 metallic and roughness; uniforms: see shaders/material.glsl.
+    void draw(const gl::Program& program, bool cullBackFaces, gl::State state) const;
+
+  private:
+    const gl::Texture& texture(int index) const;
+
+    Bounds bounds_;
+    std::vector<Mesh> meshes_;
+    std::vector<Material> materials_;
+    gl::Geometry geometry_;
+    std::vector<gl::Texture> textures_;
+    gl::Texture white_;
+};
+
+// What is seen at each pixel. View space as in shaders/view.glsl.
+class GBuffer {
+  public:
+    // Without `normals` the buffer of normals does not exist.
+    GBuffer(int width, int height, bool normals);
+
+    const gl::Target& target() const { return target_; }
+    const gl::Texture& albedo() const { return target_.colour(0); } // sRGB; alpha: specular
+                                                                    // intensity
+    const gl::Texture& depth() const { return target_.colour(1); }  // linear view depth, metres
+    const gl::Texture* normal() const { // view-space unit vector; alpha: specular power
+        return target_.count() > 2 ? &target_.colour(2) : nullptr;
+    }
+
+  private:
+    gl::Target target_;
+};
+
+// Uploads a frame to binding 0, where every shader expects it.
+void bindFrame(const gl::UniformBuffer& frame);
+gl::UniformBuffer frameBuffer(const Frame& frame);
+
+class GBufferPass {
+  public:
+    GBufferPass();
+    // The frame must be bound.
+    void draw(const GpuScene& scene, const Frame& frame, const GBuffer& gbuffer) const;
+
+  private:
+    gl::Program program_;
+};
+
+// The text of shaders/NAME with the frame block in front.
+gl::ShaderText shaderText(const std::string& name);
+std::filesystem::path shaderFolder();
+
+} // namespace obscura

@@ -1,0 +1,68 @@
+#pragma once
+
+#include "renderer/gl/object.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace obscura::gl {
+
+enum class Format { r16f, r32f, srgb8, rgba8, rgba16f, rgba32f, depth32f };
+
+int channelsOf(Format format);
+
+// A texture of one level that shaders read by texelFetch or with nearest filtering, clamped at
+// the border; depth32f compares instead (sampler2DShadow) with linear filtering.
+Texture targetTexture(int width, int height, Format format, const std::string& label);
+
+// A texture with mipmaps, trilinear and anisotropic filtering. `rgba` rows from first to last
+// have v = 0 to v = 1.
+struct Wrap {
+    bool repeatU = true, repeatV = true;
+};
+Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba, Wrap wrap);
+
+// Linear floats, 3 channels, filtered; repeats across, clamps at the top and bottom.
+Texture panoramaTexture(int width, int height, std::span<const float> rgb);
+
+// A texture of one texel.
+Texture constantTexture(std::array<float, 4> value);
+
+void bindTexture(int unit, const Texture& texture);
+
+// The texture's content as it lies in memory, rows from bottom to top; for hashing.
+std::vector<std::byte> readBytes(const Texture& texture, int width, int height, Format format);
+// The same as floats with the format's number of channels.
+std::vector<float> readFloats(const Texture& texture, int width, int height, Format format);
+
+// Textures that are drawn into together.
+class Target {
+  public:
+    // `depth` adds a depth32f texture, the last in colours' stead when there are none.
+    Target(int width, int height, std::span<const Format> colours, bool depth,
+           const std::string& label);
+
+    void bind() const; // draw here, viewport to its size
+    void clear(int colour, std::array<float, 4> value) const;
+    void clearDepth(float value) const;
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    const Texture& colour(int index) const { return colours_[static_cast<std::size_t>(index)]; }
+    const Texture& depth() const { return depth_; }
+    Format format(int index) const { return formats_[static_cast<std::size_t>(index)]; }
+    int count() const { return static_cast<int>(colours_.size()); }
+
+  private:
+    int width_, height_;
+    std::vector<Format> formats_;
+    std::vector<Texture> colours_;
+    Texture depth_;
+    Framebuffer framebuffer_;
+};
+
+} // namespace obscura::gl

@@ -1,0 +1,145 @@
+#include "renderer/image.h"
+
+#include "protocols/error.h"
+#include "protocols/files.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+constexpr OIIO::TypeDesc::BASETYPE typeOf(std::uint8_t) { return OIIO::TypeDesc::UINT8; }
+constexpr OIIO::TypeDesc::BASETYPE typeOf(float) { return OIIO::TypeDesc::FLOAT; }
+
+// Grey repeats into missing colour channels; missing alpha is opaque.
+template <typename T>
+std::vector<T> withChannels(const std::vector<T>& from, int have, int want, T opaque) {
+    if (have == want)
+        return from;
+    const std::size_t count = from.size() / static_cast<std::size_t>(have);
+    std::vector<T> to(count * static_cast<std::size_t>(want));
+    const bool alpha = have == 2 || have == 4;
+    const int colours = alpha ? have - 1 : have;
+    for (std::size_t i = 0; i < count; ++i)
+        for (int c = 0; c < want; ++c) {
+            T value = opaque;
+            if (c < 3)
+                value = from[i * static_cast<std::size_t>(have) +
+                             static_cast<std::size_t>(colours == 1 ? 0 : std::min(c, colours - 1))];
+            else if (alpha)
+                value = from[i * static_cast<std::size_t>(have) + static_cast<std::size_t>(colours)];
+            to[i * static_cast<std::size_t>(want) + static_cast<std::size_t>(c)] = value;
+        }
+    return to;
+}
+
+template <typename ImageType>
+ImageType read(OIIO::ImageInput* input, const std::string& name, int channels) {
+    if (!input)
+        throw Error({name, 0, 0, {}},
+                    fmt::format("expected an image, cannot read it: {}", OIIO::geterror()));
+    const OIIO::ImageSpec& spec = input->spec();
+    ImageType image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channels = spec.nchannels;
+    image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(spec.nchannels));
+    using Value = typename decltype(image.pixels)::value_type;
+    if (!input->read_image(0, 0, 0, -1, typeOf(Value{}), image.pixels.data()))
+        throw Error({name, 0, 0, {}},
+                    fmt::format("expected a whole image, cannot read it: {}", input->geterror()));
+    if (channels > 0) {
+        constexpr Value opaque = std::is_same_v<Value, float> ? Value(1) : Value(255);
+        image.pixels = withChannels(image.pixels, image.channels, channels, opaque);
+        image.channels = channels;
+    }
+    return image;
+}
+
+void write(const std::filesystem::path& path, OIIO::ImageSpec spec, OIIO::TypeDesc type,
+           const void* pixels) {
+    const std::filesystem::path unfinished = unfinishedPath(path);
+    const auto fail = [&](const std::string& reason) {
+        std::error_code ignored;
+        std::filesystem::remove(unfinished, ignored);
+        throw Error({path.string(), 0, 0, {}}, "cannot be written: " + reason);
+    };
+    auto output = OIIO::ImageOutput::create(unfinished.string());
+    if (!output || !output->open(unfinished.string(), spec) || !output->write_image(type, pixels) ||
+        !output->close())
+        fail(output ? output->geterror() : OIIO::geterror());
+    publish(unfinished, path);
+}
+
+} // namespace
+
+float srgbFromLinear(float linear) {
+    linear = std::clamp(linear, 0.0f, 1.0f);
+    return linear <= 0.0031308f ? 12.92f * linear
+                                : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+float linearFromSrgb(float code) {
+    return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
+}
+
+Image8 readImage8(const std::filesystem::path& path, int channels) {
+    return read<Image8>(OIIO::ImageInput::open(path.string()).get(), path.string(), channels);
+}
+
+Image readImage(const std::filesystem::path& path, int channels) {
+    return read<Image>(OIIO::ImageInput::open(path.string()).get(), path.string(), channels);
+}
+
+Image8 readImage8(std::span<const std::byte> encoded, const std::string& name, int channels) {
+    OIIO::Filesystem::IOMemReader memory(const_cast<std::byte*>(encoded.data()), encoded.size());
+    return read<Image8>(OIIO::ImageInput::open(name, nullptr, &memory).get(), name, channels);
+}
+
+void writePng(const std::filesystem::path& path, const Image8& image) {
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    // Level 4 halves the time of the default 6 for a file a few percent larger.
+    spec.attribute("png:compressionLevel", 4);
+    write(path, spec, OIIO::TypeDesc::UINT8, image.pixels.data());
+}
+
+void writeExr(const std::filesystem::path& path, const Image& image,
+              std::span<const std::string> channelNames, bool depth32) {
+    assert(channelNames.size() == static_cast<std::size_t>(image.channels));
+    OIIO::ImageSpec spec(image.width, image.height, image.channels,
+                         depth32 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF);
+    spec.channelnames.assign(channelNames.begin(), channelNames.end());
+    spec.attribute("compression", "zip");
+    spec.attribute("oiio:ColorSpace", "Linear");
+    write(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+}
+
+Difference compare(const Image& first, const Image& second, double threshold) {
+    assert(first.pixels.size() == second.pixels.size() && !first.pixels.empty());
+    Difference result;
+    double squares = 0, sum = 0;
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < first.pixels.size(); ++i) {
+        const double d = static_cast<double>(second.pixels[i]) - static_cast<double>(first.pixels[i]);
+        sum += d;
+        squares += d * d;
+        // Written so that NaN counts as beyond every threshold.
+        beyond += !(std::abs(d) <= threshold);
+        result.largest = !(std::abs(d) <= result.largest) ? std::abs(d) : result.largest;
+    }
+    const double count = static_cast<double>(first.pixels.size());
+    result.rms = std::sqrt(squares / count);
+    result.mean = sum / count;
+    result.share = static_cast<double>(beyond) / count;
+    return result;
+}
+
+} // namespace obscura

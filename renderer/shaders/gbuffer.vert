@@ -1,0 +1,19 @@
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in vec4 tangent;
+layout(location = 3) in vec2 uv;
+
+out vec3 viewNormal;
+out vec4 viewTangent;
+out vec2 materialUv;
+out float viewDepth;
+
+void main() {
+    vec4 viewPosition = frame.viewFromWorld * vec4(position, 1.0);
+    mat3 rotation = mat3(frame.viewFromWorld);
+    viewNormal = rotation * normal;
+    viewTangent = vec4(rotation * tangent.xyz, tangent.w);
+    materialUv = uv;
+    viewDepth = -viewPosition.z;
+    gl_Position = frame.clipFromView * viewPosition;
+}

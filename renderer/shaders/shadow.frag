@@ -1,0 +1,7 @@
+#include "material.glsl"
+
+in vec2 materialUv;
+
+void main() {
+    cutOut(materialUv);
+}
