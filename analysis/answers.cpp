@@ -114,9 +114,11 @@ int removeRepeated(std::vector<Answer>& answers, std::string_view column, bool a
 int removeDuplicates(std::vector<Answer>& answers, bool allowed) {
     const auto rowId = [](const Response& row) { return Key{row.studyId, "row", row.rowId}; };
     const auto trial = [](const Response& row) {
-        return Key{row.studyId,   "participant", row.participantId, "session",
-                   row.sessionId, row.trialKind, "condition",       row.conditionId,
-                   "repeat",      std::to_string(row.repeatIndex)};
+        return Key{row.studyId,       "participant",
+                   row.participantId, "session",
+                   row.sessionId,     row.trialKind,
+                   "condition",       row.conditionId,
+                   "repeat",          std::to_string(row.repeatIndex)};
     };
     return removeRepeated(answers, "row_id", allowed, rowId) +
            removeRepeated(answers, "condition_id", allowed, trial);

@@ -10,9 +10,9 @@ namespace obscura {
 
 namespace {
 
-// Lengths in the SVG's units, which a browser takes for pixels.
-constexpr int pageWidth = 920, rowHeight = 30, headHeight = 54, footHeight = 76;
-constexpr int fontSize = 14;
+// Lengths in the SVG's units; a browser scales the whole.
+constexpr int plotWidth = 500, countsWidth = 100;
+constexpr int rowHeight = 30, headHeight = 54, footHeight = 76, fontSize = 14;
 constexpr double glyphWidth = 0.56 * fontSize; // of the sans-serif faces browsers use, on average
 
 constexpr const char* blue = "#0072B2";
@@ -38,39 +38,45 @@ std::vector<Line> linesOf(const std::vector<Tally>& tallies) {
     return lines;
 }
 
-int labelWidth(const std::vector<Line>& lines) {
+// The picture and, within it, the plot.
+struct Frame {
+    int width = 0, height = 0, left = 0;
+
+    double x(double length) const { return length / width; } // as gnuplot's screen coordinates
+    double y(double fromTop) const { return 1 - fromTop / height; }
+    double counts() const { return x(width - countsWidth / 2.0); }
+};
+
+Frame frameOf(const std::vector<Line>& lines) {
     std::size_t longest = 0;
     for (const Line& line : lines)
         longest = std::max(longest, line.text.size());
-    return std::min(pageWidth / 2, static_cast<int>(glyphWidth * static_cast<double>(longest)) + 30);
+    const int left = static_cast<int>(glyphWidth * static_cast<double>(longest)) + 40;
+    return {left + plotWidth + countsWidth,
+            headHeight + static_cast<int>(lines.size()) * rowHeight + footHeight, left};
 }
 
-// Where the plot lies, as fractions of the picture.
-std::string frame(int height, int left) {
-    return fmt::format("set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\n"
-                       "set tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
-                       static_cast<double>(left) / pageWidth, 1 - 100.0 / pageWidth,
-                       1 - static_cast<double>(headHeight) / height,
-                       static_cast<double>(footHeight) / height);
+std::string setFrame(const Frame& frame, std::size_t rows) {
+    return fmt::format("set terminal svg size {},{} dynamic font 'sans-serif,{}' background rgb "
+                       "'white'\n"
+                       "set lmargin at screen {}\nset rmargin at screen {}\n"
+                       "set tmargin at screen {}\nset bmargin at screen {}\n"
+                       "set yrange [{}:-0.5]\n",
+                       frame.width, frame.height, fontSize, frame.x(frame.left),
+                       frame.x(frame.left + plotWidth), frame.y(headHeight),
+                       frame.y(frame.height - footHeight), static_cast<double>(rows) - 0.5);
 }
 
-std::string labels(const std::vector<Line>& lines) {
+std::string labels(const std::vector<Line>& lines, const Frame& frame) {
     std::string script;
     for (std::size_t y = 0; y < lines.size(); ++y) {
-        const Line& line = lines[y];
-        const std::string text = gnuplotQuoted(line.text);
-        if (!line.tally) {
-            script += fmt::format("set label {} at graph 0, first {} offset screen -0.012, 0 right "
-                                  "noenhanced font ':Bold'\n",
-                                  text, y);
-            continue;
-        }
-        script += fmt::format("set label {} at graph 0, first {} offset screen -0.012, 0 right "
-                              "noenhanced\n",
-                              text, y);
-        script += fmt::format("set label '{} : {}' at graph 1, first {} offset screen 0.055, 0 "
-                              "center\n",
-                              line.tally->votes.a, line.tally->votes.b, y);
+        const auto& [tally, text] = lines[y];
+        script +=
+            fmt::format("set label {} at screen {}, first {} left\n",
+                        tally ? gnuplotText(text) : gnuplotBold(text), frame.x(tally ? 22 : 4), y);
+        if (tally)
+            script += fmt::format("set label '{} : {}' at screen {}, first {} center\n",
+                                  tally->votes.a, tally->votes.b, frame.counts(), y);
     }
     return script;
 }
@@ -90,45 +96,51 @@ std::string data(const std::vector<Line>& lines, const char* name, bool differen
     return block + "END\n";
 }
 
-std::string heading(const Findings& findings) {
+// What stands over the plot: the key and, large and pale behind everything, the stamp.
+std::string heading(const Findings& findings, const Frame& frame) {
     const std::string stamp = stampOf(findings).empty() ? "" : sourceOf(findings) + " DATA";
-    return fmt::format("set label {} at screen 0.5, 0.5 center rotate by 20 font ',60' textcolor "
-                       "rgb '#F0D5C8' back\n"
-                       "set label 'votes a : b' at graph 1, graph 1 offset screen 0.055, char 1 "
-                       "center\n",
-                       gnuplotQuoted(stamp));
+    const auto keyEntry = [&](const char* text, double x, int mark, const char* colour) {
+        return fmt::format("set label '{}' at graph {}, screen {} offset char 0.8, -0.25 point "
+                           "pointtype {} pointsize 1.2 linewidth 2 linecolor rgb '{}'\n",
+                           text, x, frame.y(headHeight / 2.0), mark, colour);
+    };
+    return fmt::format("set label {} at screen 0.5, screen 0.5 center rotate by 15 back "
+                       "font 'sans-serif,64' textcolor rgb '#F3DACD'\n"
+                       "set label 'votes a : b' at screen {}, screen {} center\n",
+                       gnuplotBold(stamp), frame.counts(), frame.y(headHeight / 2.0)) +
+           keyEntry("exact p < .05, uncorrected", 0.02, 7, blue) +
+           keyEntry("p ≥ .05", 0.55, 6, grey);
 }
 
 constexpr const char* style = R"(set encoding utf8
 set border 1 linecolor rgb '#555555'
 set xrange [0:100]
-set xtics 0, 10, 100 nomirror out format '%.0f %%'
-set mxtics 2
+set xtics 0, 25, 100 nomirror out format '%.0f %%'
+set mxtics 5
 set grid xtics linetype 1 linewidth 0.5 linecolor rgb '#DDDDDD'
 unset ytics
-set xlabel '← more votes for a          share of votes for b, 95 % Wilson interval          more votes for b →'
+unset key
+set xlabel '← more votes for a        share of votes for b, 95 % Wilson interval        more votes for b →'
 set arrow from first 50, graph 0 to first 50, graph 1 nohead linewidth 1.5 dashtype 2 linecolor rgb '#333333'
-set key at screen 0.5, screen 0.02 center bottom horizontal maxrows 1 samplen 2
 set bars small
+)";
+
+// An open mark is a white one with a rim, so that the interval does not run through it.
+constexpr const char* plot =
+    R"(plot $different using 1:4:2:3 with xerrorbars linewidth 2 pointtype 7 pointsize 1.2 linecolor rgb '{0}' title 'exact p < .05', \
+  $other using 1:4:2:3 with xerrorbars linewidth 2 pointtype 7 pointsize 0.1 linecolor rgb '{1}' title 'p ≥ .05', \
+  $other using 1:4 with points pointtype 7 pointsize 1.2 linecolor rgb 'white' title 'p ≥ .05', \
+  $other using 1:4 with points pointtype 6 pointsize 1.2 linewidth 2 linecolor rgb '{1}' title 'p ≥ .05'
 )";
 
 } // namespace
 
 std::string chartScript(const Findings& findings) {
     const std::vector<Line> lines = linesOf(findings.tallies);
-    const int rows = static_cast<int>(lines.size());
-    const int height = headHeight + rows * rowHeight + footHeight;
-    return fmt::format("set terminal svg size {},{} dynamic font 'sans-serif,{}' background rgb "
-                       "'white'\n",
-                       pageWidth, height, fontSize) +
-           style + frame(height, labelWidth(lines)) +
-           fmt::format("set yrange [{}:-0.5]\n", rows - 0.5) + heading(findings) + labels(lines) +
+    const Frame frame = frameOf(lines);
+    return style + setFrame(frame, lines.size()) + heading(findings, frame) + labels(lines, frame) +
            data(lines, "different", true) + data(lines, "other", false) +
-           fmt::format("plot $different using 1:4:2:3 with xerrorbars linewidth 2 pointtype 7 "
-                       "pointsize 1.2 linecolor rgb '{}' title 'exact p < .05, uncorrected', "
-                       "$other using 1:4:2:3 with xerrorbars linewidth 2 pointtype 6 pointsize 1.2 "
-                       "linecolor rgb '{}' title 'not'\n",
-                       blue, grey);
+           fmt::format(plot, blue, grey);
 }
 
 std::string chartSvg(const Findings& findings) {

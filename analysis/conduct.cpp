@@ -81,9 +81,10 @@ void noteProvenance(const std::vector<Answer>& answers, Conduct& conduct) {
 
 template <auto field>
 auto rangeOf(const std::vector<Answer>& answers) {
-    const auto [least, most] = std::minmax_element(
-        answers.begin(), answers.end(),
-        [](const Answer& x, const Answer& y) { return x.row.*field < y.row.*field; });
+    const auto [least, most] =
+        std::minmax_element(answers.begin(), answers.end(), [](const Answer& x, const Answer& y) {
+            return x.row.*field < y.row.*field;
+        });
     return std::pair(least->row.*field, most->row.*field);
 }
 
@@ -139,11 +140,13 @@ std::string trials(const Conduct& c) {
     if (c.interrupted > 0)
         text += fmt::format(", {} of them interrupted (the window lost the screen)", c.interrupted);
     const LeftOut& out = c.leftOut;
-    const std::pair<int, const char*> parts[] = {
-        {out.practice, "practice"},       {out.catches, "catch"},
-        {out.interrupted, "interrupted"}, {out.duplicates, "answered twice"},
-        {out.simulated, "simulated"},     {out.real, "not simulated"},
-        {static_cast<int>(c.bad.size()), "unreadable"}};
+    const std::pair<int, const char*> parts[] = {{out.practice, "practice"},
+                                                 {out.catches, "catch"},
+                                                 {out.interrupted, "interrupted"},
+                                                 {out.duplicates, "answered twice"},
+                                                 {out.simulated, "simulated"},
+                                                 {out.real, "not simulated"},
+                                                 {static_cast<int>(c.bad.size()), "unreadable"}};
     std::string list;
     for (const auto& [number, kind] : parts)
         if (number > 0)
@@ -160,9 +163,9 @@ std::string conditionOrder(const Conduct& c) {
     for (const auto& [slot, sessions] : c.slots)
         if (sessions > 1)
             shared.push_back(slot);
-    return text + (shared.empty() ? "no slot used twice"
-                                  : fmt::format("slots used more than once: {}",
-                                                fmt::join(shared, ", ")));
+    return text + (shared.empty()
+                       ? "no slot used twice"
+                       : fmt::format("slots used more than once: {}", fmt::join(shared, ", ")));
 }
 
 std::string imageOrder(const Conduct& c) {
@@ -172,8 +175,10 @@ std::string imageOrder(const Conduct& c) {
         least = std::min(least, share);
         most = std::max(most, share);
     }
-    return fmt::format("b was the second image in {:.0f} to {:.0f} % of each condition's trials",
-                       100 * least, 100 * most);
+    const std::string shares = least == most
+                                   ? fmt::format("{:.0f}", 100 * least)
+                                   : fmt::format("{:.0f} to {:.0f}", 100 * least, 100 * most);
+    return fmt::format("b was the second image in {} % of each condition's trials", shares);
 }
 
 std::string positionBias(const Conduct& c) {
@@ -185,8 +190,7 @@ std::string positionBias(const Conduct& c) {
 }
 
 std::string seconds(const Spread& ms) {
-    return fmt::format("{:.2f} s ({:.2f}–{:.2f})", ms.median / 1000, ms.low / 1000,
-                       ms.high / 1000);
+    return fmt::format("{:.2f} s ({:.2f}–{:.2f})", ms.median / 1000, ms.low / 1000, ms.high / 1000);
 }
 
 std::string times(const Conduct& c) {
@@ -221,18 +225,19 @@ std::string images(const Conduct& c) {
 } // namespace
 
 std::vector<Fact> factsOf(const Conduct& conduct) {
-    return {{"Participants", people(conduct)},
-            {"Trials", trials(conduct)},
-            {"Order of conditions", conditionOrder(conduct)},
-            {"Order within pairs", imageOrder(conduct)},
-            {"Second image chosen", positionBias(conduct)},
-            {"Median time (5–95 %)", times(conduct)},
-            {"Grey mask, median (5–95 %)", mask(conduct)},
-            {"Display", display(conduct)},
-            {"Images", images(conduct)},
-            {"Machine", fmt::format("{}", fmt::join(conduct.machines, ", "))},
-            {"Presented by", fmt::format("obscura-experiment {}", fmt::join(conduct.programs, ", "))},
-            {"Protocol, SHA-256", fmt::format("{}", fmt::join(conduct.protocols, ", "))}};
+    return {
+        {"Participants", people(conduct)},
+        {"Trials", trials(conduct)},
+        {"Order of conditions", conditionOrder(conduct)},
+        {"Order within pairs", imageOrder(conduct)},
+        {"Second image chosen", positionBias(conduct)},
+        {"Median time (5–95 %)", times(conduct)},
+        {"Grey mask, median (5–95 %)", mask(conduct)},
+        {"Display", display(conduct)},
+        {"Images", images(conduct)},
+        {"Machine", fmt::format("{}", fmt::join(conduct.machines, ", "))},
+        {"Presented by", fmt::format("obscura-experiment {}", fmt::join(conduct.programs, ", "))},
+        {"Protocol, SHA-256", fmt::format("{}", fmt::join(conduct.protocols, ", "))}};
 }
 
 } // namespace obscura

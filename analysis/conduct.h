@@ -30,14 +30,14 @@ struct Conduct {
 
     int files = 0, participants = 0, sessions = 0, trials = 0, simulated = 0, interrupted = 0;
     int incomplete = 0; // sessions with fewer trials than the longest one
-    int mostVotes = 0; // of one participant on one condition; the tests assume 1
+    int mostVotes = 0;  // of one participant on one condition; the tests assume 1
     LeftOut leftOut;
     std::vector<BadRow> bad;
 
-    int secondChosen = 0;              // trials in which the image shown second was chosen
+    int secondChosen = 0;               // trials in which the image shown second was chosen
     std::map<std::string, Shown> shown; // by condition
-    std::map<int, Sessions> squares;   // by square
-    std::map<int, int> slots;          // sessions by slot
+    std::map<int, Sessions> squares;    // by square
+    std::map<int, int> slots;           // sessions by slot
 
     std::map<std::string, int> timestampSources; // trials by source
     double slowestHz = 0, fastestHz = 0;

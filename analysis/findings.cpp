@@ -70,9 +70,10 @@ std::string extent(const Findings& findings) {
 std::string differences(const Findings& findings) {
     const auto found = different(findings);
     const std::string list = found.empty() ? "" : ": " + listOf(found, preference);
-    return fmt::format("{} of {} conditions differ from an even split at .05 (exact binomial "
-                       "test, uncorrected){}.",
-                       found.size(), tested(findings).size(), list);
+    return fmt::format("{} of {} conditions {} from an even split at .05 (exact binomial test, "
+                       "uncorrected){}.",
+                       found.size(), tested(findings).size(),
+                       found.size() == 1 ? "differs" : "differ", list);
 }
 
 // The approximation rejects more often than it says; a reader who compares must know where.
@@ -91,8 +92,8 @@ std::string multiplicity(const Findings& findings) {
     const std::size_t tests = tested(findings).size();
     if (tests < 2)
         return {};
-    return fmt::format("{} tests at .05 give up to {:.2g} such differences on average where "
-                       "everybody guesses, so one small p among them is weak evidence.",
+    return fmt::format("With {} tests at .05, guessing alone gives up to {:.2g} such differences "
+                       "on average, so one small p among them is weak evidence.",
                        tests, static_cast<double>(tests) * significance);
 }
 

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 namespace obscura {
 
@@ -45,15 +44,14 @@ Interval wilson(int successes, int trials) {
     const double scale = 1 / (1 + z2 / n);
     const double centre = scale * (share + z2 / (2 * n));
     const double reach = scale * z * std::sqrt(share * (1 - share) / n + z2 / (4 * n * n));
-    // At 0 and n one end is exactly 0 or 1; rounding must not carry it past.
-    return {std::max(0.0, centre - reach), std::min(1.0, centre + reach)};
+    // Without successes, or without failures, one end is exactly 0 or 1; rounding would miss it.
+    return {successes == 0 ? 0 : centre - reach, successes == trials ? 1 : centre + reach};
 }
 
 double cohenG(Votes votes) { return shareOfB(votes) - 0.5; }
 
-double cohenH(Votes votes) {
-    return 2 * std::asin(std::sqrt(shareOfB(votes))) - std::numbers::pi / 2;
-}
+// 2 asin sqrt(p) - pi/2 = asin(2p - 1), which is exactly 0 for an even split.
+double cohenH(Votes votes) { return std::asin(2 * shareOfB(votes) - 1); }
 
 double cohenW(Votes votes) { return std::sqrt(chiSquare(votes) / votes.total()); }
 

@@ -4,16 +4,15 @@
 #include "protocols/error.h"
 
 #include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <string_view>
-
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace obscura {
 
@@ -65,6 +64,20 @@ int run(const char* const* command, const Scratch& in, const Scratch& out, const
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+// Free of meaning within single quotes: gnuplot's markup is escaped, lines are joined.
+std::string literal(const std::string& text) {
+    constexpr std::string_view markup = "\\{}_^@&~";
+    std::string result;
+    for (const char c : text) {
+        if (markup.find(c) != markup.npos)
+            result += '\\';
+        if (c == '\'')
+            result += '\'';
+        result += c == '\n' || c == '\r' ? ' ' : c;
+    }
+    return result;
+}
+
 } // namespace
 
 std::string gnuplotSvg(const std::string& script, const std::string& title) {
@@ -82,14 +95,10 @@ std::string gnuplotSvg(const std::string& script, const std::string& title) {
     return svg;
 }
 
-std::string gnuplotQuoted(const std::string& text) {
-    std::string quoted = "'";
-    for (const char c : text)
-        if (c == '\'')
-            quoted += "''";
-        else
-            quoted += c == '\n' || c == '\r' ? ' ' : c;
-    return quoted + "'";
+std::string gnuplotText(const std::string& text) { return fmt::format("'{}'", literal(text)); }
+
+std::string gnuplotBold(const std::string& text) {
+    return fmt::format("'{{/:Bold {}}}'", literal(text));
 }
 
 } // namespace obscura

@@ -9,7 +9,8 @@ namespace obscura {
 // gnuplot or a fault in the script is an Error.
 std::string gnuplotSvg(const std::string& script, const std::string& title);
 
-// The text as a gnuplot string on one line; combine with `noenhanced`, or "_" and "^" vanish.
-std::string gnuplotQuoted(const std::string& text);
+// The text as a gnuplot string on one line, to be drawn as it is: plain, or in bold type.
+std::string gnuplotText(const std::string& text);
+std::string gnuplotBold(const std::string& text);
 
 } // namespace obscura

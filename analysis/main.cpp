@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 
 namespace obscura {
 
@@ -23,44 +24,49 @@ struct Options {
     AnswerRules rules;
 };
 
-const std::map<std::string, SimulatedRows> simulatedRows = {
-    {"refuse", SimulatedRows::refuse},
-    {"exclude", SimulatedRows::exclude},
-    {"only", SimulatedRows::only},
-    {"include", SimulatedRows::include}};
+const std::map<std::string, SimulatedRows> simulatedRows = {{"refuse", SimulatedRows::refuse},
+                                                            {"exclude", SimulatedRows::exclude},
+                                                            {"only", SimulatedRows::only},
+                                                            {"include", SimulatedRows::include}};
 
 void declare(CLI::App& app, Options& options) {
     app.set_version_flag("--version", fmt::format("{} ({})", version(), commit()));
     auto* data = app.add_option("DATA", options.data,
-                                "A study's folder (participant_data/<study>), or CSV files");
+                                "A study's folder (participant_data/<study>), or CSV files")
+                     ->option_text(" ");
     auto* counts = app.add_option("--counts", options.counts,
                                   "Instead of DATA: published counts, a CSV file such as "
-                                  "analysis/thesis_table4.csv");
+                                  "analysis/thesis_table4.csv")
+                       ->option_text("FILE");
     auto* stimuli = app.add_option("--stimuli", options.stimuli,
                                    "Folder of the study's stimuli (manifest.json): sets the order "
                                    "of conditions, adds the contact sheet to the report, and "
-                                   "checks that these images were shown");
+                                   "checks that these images were shown")
+                        ->option_text("DIR");
     counts->excludes(data)->excludes(stimuli);
     app.add_option("--out", options.out, "Folder for report.html and votes.csv")
-        ->capture_default_str();
-    app.add_option("--csv", options.csv, "Where the CSV goes instead of votes.csv in that folder");
+        ->option_text("DIR=report");
+    app.add_option("--csv", options.csv, "Where the CSV goes instead of votes.csv in that folder")
+        ->option_text("FILE");
 }
 
 void declareRules(CLI::App& app, AnswerRules& rules) {
     app.add_flag("--lenient", rules.lenient, "Report rows that cannot be read, and skip them");
-    app.add_option("--simulated", rules.simulated,
-                   "Rows of simulated among those of real participants: refuse, exclude, only (the "
-                   "simulated), include. Data of one kind need no choice")
+    app.add_option_function<std::string>(
+           "--simulated",
+           [&rules](const std::string& word) { rules.simulated = simulatedRows.at(word); },
+           "Rows of simulated among those of real participants: refuse, exclude, only (the "
+           "simulated), include. Data of one kind need no choice")
         ->option_text("WHAT=refuse")
-        ->transform(CLI::Transformer(simulatedRows))
-        ->check(CLI::IsMember(simulatedRows));
+        ->check(CLI::IsMember({"refuse", "exclude", "only", "include"}));
     app.add_flag("--allow-mixed-studies", rules.mixedStudies, "Pool rows of several studies");
     app.add_flag("--allow-mixed-protocols", rules.mixedProtocols,
                  "Pool rows of several versions of the protocol file");
     app.add_flag("--allow-duplicates", rules.duplicates,
                  "Where a trial has several rows, count the first and leave out the others");
-    app.add_flag("--exclude-interrupted{false}", rules.interrupted,
-                 "Leave out trials during which the window lost the screen; else they count");
+    app.add_flag_callback(
+        "--exclude-interrupted", [&rules] { rules.interrupted = false; },
+        "Leave out trials during which the window lost the screen; else they count");
 }
 
 Findings published(const fs::path& counts) {

@@ -23,7 +23,7 @@ constexpr std::string_view head = R"(<!DOCTYPE html>
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'"/>
 <title>{}</title>
 <style>
-body {{ font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: white; max-width: 62rem;
+body {{ font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: white; max-width: 66rem;
        margin: 2rem auto; padding: 0 1rem; }}
 h1 {{ font-size: 1.7rem; line-height: 1.25; margin-bottom: 0; }}
 h2 {{ font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }}
@@ -34,12 +34,12 @@ figure {{ margin: 1rem 0; }}
 figure svg, figure img {{ width: 100%; height: auto; }}
 .wide {{ overflow-x: auto; }}
 table {{ border-collapse: collapse; font-size: .88rem; }}
-th, td {{ padding: .25rem .55rem; text-align: left; vertical-align: top; }}
+th, td {{ padding: .25rem .5rem; text-align: left; vertical-align: top; }}
 thead th {{ border-bottom: 2px solid #555; }}
 tbody th {{ font-weight: 600; white-space: nowrap; }}
 tbody tr {{ border-bottom: 1px solid #ddd; }}
 .number {{ text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }}
-.differs td {{ font-weight: 600; background: #E3EFF7; }}
+.differs td {{ background: #DCEBF5; }}
 .hash {{ font-family: monospace; overflow-wrap: anywhere; }}
 @media print {{
   body {{ font-size: 10pt; margin: 0; max-width: none; }}
@@ -79,9 +79,9 @@ std::string tableHtml(const Table& table, const std::vector<Tally>& tallies) {
                                    "<tbody>\n",
                                    row("th", table, headings));
     for (std::size_t i = 0; i < table.rows.size(); ++i)
-        html += fmt::format("<tr{}>{}</tr>\n",
-                            differs(tallies[i].votes) ? " class=\"differs\"" : "",
-                            row("td", table, table.rows[i]));
+        html +=
+            fmt::format("<tr{}>{}</tr>\n", differs(tallies[i].votes) ? " class=\"differs\"" : "",
+                        row("td", table, table.rows[i]));
     return html + "</tbody></table></div>\n";
 }
 

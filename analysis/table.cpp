@@ -36,11 +36,17 @@ std::string cellOf(const Field& field, const Tally& tally, std::string_view abse
 }
 
 template <auto field>
-std::string text(const Tally& tally) { return tally.*field; }
+std::string text(const Tally& tally) {
+    return tally.*field;
+}
 template <auto member>
-std::string votes(const Tally& tally) { return fmt::format("{}", tally.votes.*member); }
+std::string votes(const Tally& tally) {
+    return fmt::format("{}", tally.votes.*member);
+}
 template <auto field>
-std::string digits(const Frequencies& f) { return fmt::format("{}", f.*field); }
+std::string digits(const Frequencies& f) {
+    return fmt::format("{}", f.*field);
+}
 
 using T = Tally;
 using F = Frequencies;
@@ -52,8 +58,7 @@ const Field printed[] = {
     {"a", false, text<&T::techniqueA>},
     {"b", false, text<&T::techniqueB>},
     {"Hyp.", false, text<&T::hypothesis>},
-    {"Votes a : b", true,
-     [](const T& t) { return fmt::format("{} : {}", t.votes.a, t.votes.b); }},
+    {"Votes a : b", true, [](const T& t) { return fmt::format("{} : {}", t.votes.a, t.votes.b); }},
     {"b share (95 %)", true, nullptr,
      [](const F& f) {
          return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * f.share, 100 * f.wilson.low,
@@ -101,7 +106,7 @@ std::string alignedLine(const Table& table, const std::vector<std::string>& cell
                         const std::vector<std::size_t>& widths) {
     std::string line;
     for (std::size_t i = 0; i < cells.size(); ++i)
-        line += (i ? "  " : "") + padded(cells[i], widths[i], table.columns[i].number);
+        line.append(i ? "  " : "").append(padded(cells[i], widths[i], table.columns[i].number));
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";
 }
@@ -132,8 +137,7 @@ std::string alignedText(const Table& table) {
         for (std::size_t n = 0; n < widths[i]; ++n)
             rules[i] += "─";
     }
-    std::string text =
-        alignedLine(table, headings, widths) + alignedLine(table, rules, widths);
+    std::string text = alignedLine(table, headings, widths) + alignedLine(table, rules, widths);
     for (const auto& row : table.rows)
         text += alignedLine(table, row, widths);
     return text;
@@ -147,7 +151,7 @@ std::string resultCsv(const Findings& findings) {
     for (const Tally& tally : findings.tallies) {
         csv += csvCell(sourceOf(findings));
         for (const Field& field : stored)
-            csv += "," + csvCell(cellOf(field, tally, ""));
+            csv.append(",").append(csvCell(cellOf(field, tally, "")));
         csv += '\n';
     }
     return csv;

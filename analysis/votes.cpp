@@ -104,7 +104,12 @@ Tally countsOf(const CsvRecord& record, const std::string& file) {
     for (int column = 1; column <= 5; ++column)
         if (cells[column - 1].empty())
             throw Error(place(column), "expected text, found nothing");
-    return {cells[0], cells[1], cells[2], cells[5], cells[3], cells[4],
+    return {cells[0],
+            cells[1],
+            cells[2],
+            cells[5],
+            cells[3],
+            cells[4],
             {voteCount(cells[6], place(7)), voteCount(cells[7], place(8))}};
 }
 

@@ -108,7 +108,7 @@ fs::path DataFolder::ledger() const { return root_ / "sessions" / "ledger.jsonl"
 std::string objection(const DataFolder& folder, const SessionId& session) {
     const std::string& id = session.participant;
     if (id.empty() || id.size() > longestId || !std::all_of(id.begin(), id.end(), isAlphanumeric))
-        return fmt::format("a participant id has 1 to {} letters (a-z) and digits", longestId);
+        return fmt::format("expected a participant id of 1 to {} letters (a-z) and digits", longestId);
     if (fs::exists(folder.rows(session)) || fs::exists(folder.journal(session)))
         return fmt::format("there are data of {}, session {}; another id, or another session",
                            id, session.number);

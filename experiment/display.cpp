@@ -38,6 +38,7 @@ void Display::measure() {
 
 void Display::describe(nlohmann::ordered_json& sidecar) const {
     const gl::Monitor& monitor = window_.monitor();
+    const gl::Driver driver = window_.driver();
     sidecar["display"] = {
         {"monitor", monitor.name},
         {"mode", fmt::format("{}x{}", monitor.width, monitor.height)},
@@ -46,9 +47,9 @@ void Display::describe(nlohmann::ordered_json& sidecar) const {
         {"framebuffer", fmt::format("{}x{}", window_.width(), window_.height())},
         {"content_scale", window_.contentScale()},
         {"windowed", windowed_},
-        {"gl_vendor", window_.glVendor()},
-        {"gl_renderer", window_.glRenderer()},
-        {"gl_version", window_.glVersion()},
+        {"gl_vendor", driver.vendor},
+        {"gl_renderer", driver.renderer},
+        {"gl_version", driver.version},
     };
 }
 
@@ -61,6 +62,7 @@ void Display::warmUp(const gl::Picture& picture) {
                                 window_.height()));
     draw(&picture);
     window_.finish();
+    window_.check();
 }
 
 double Display::show(const gl::Picture* picture) {

@@ -4,23 +4,13 @@
 
 namespace obscura {
 
-namespace {
-
-std::string replaced(std::string text, const std::string& name, int value) {
-    for (std::size_t at; (at = text.find(name)) != std::string::npos;)
-        text.replace(at, name.size(), fmt::format("{}", value));
-    return text;
-}
-
-} // namespace
-
 Page idPage(const std::string& typed, const std::string& objection) {
     Page page;
     page.heading = "Participant";
     page.text = "Type the participant's pseudonym and press Enter.";
     page.hasField = true;
     page.field = typed;
-    page.note = objection.empty() ? "Letters and digits. Escape ends the program." : objection;
+    page.note = objection.empty() ? "Letters and digits. Escape ends the program." : objection + ".";
     return page;
 }
 
@@ -33,8 +23,8 @@ Page instructionsPage(const Texts& texts) {
 
 Page startPage(const Texts& texts, int pair, int pairs) {
     Page page;
-    page.text = replaced(replaced(texts.start, "{pair}", pair), "{pairs}", pairs);
-    page.note = fmt::format("{} / {}", pair, pairs);
+    page.heading = fmt::format("{} / {}", pair, pairs);
+    page.text = texts.start;
     page.options = {{"Space", ""}};
     return page;
 }

@@ -7,8 +7,8 @@
 
 namespace obscura {
 
-// What participants and experimenters read, page by page. The study's own words come from its
-// protocol; `start` may say "{pair}" and "{pairs}" for the number of the pair and of all pairs.
+// What participants and experimenters read, page by page. The study's words come from its protocol,
+// so they are in the participant's language; only the question whether to leave is ours.
 
 Page idPage(const std::string& typed, const std::string& objection);
 Page instructionsPage(const Texts& texts);

@@ -13,6 +13,18 @@ gl::Picture upload(const Image8& image) {
     return {image.width, image.height, image.channels, image.pixels};
 }
 
+// Types or deletes one character; false for all other input.
+bool edit(std::string& text, const gl::Input& input) {
+    const bool typed = input.kind == gl::Input::Kind::text && input.symbol > 32 && input.symbol < 127;
+    const bool deleted = input.kind == gl::Input::Kind::press &&
+                         input.key == gl::Key::backspace && !text.empty();
+    if (typed)
+        text += static_cast<char>(input.symbol);
+    if (deleted)
+        text.pop_back();
+    return typed || deleted;
+}
+
 } // namespace
 
 Presenter::Presenter(Display& display, const Study& study, std::string warning)
@@ -72,6 +84,95 @@ std::vector<Event> Presenter::events(bool wait) {
             display_.show(shown_); // something had covered the window
     }
     return events;
+}
+
+// For pages outside a trial: sleeps until there are presses or clicks.
+std::vector<Event> Presenter::answers() {
+    for (;;) {
+        std::vector<Event> all = events(true);
+        std::erase_if(all, [](const Event& event) {
+            return event.kind != Event::Kind::press && event.kind != Event::Kind::option;
+        });
+        if (!all.empty())
+            return all;
+    }
+}
+
+// Until Space or a click on the page's option; false when the person leaves instead.
+bool Presenter::read(const Sheet& page) {
+    events(false); // what was pressed for the page before
+    showPicture(&page.picture, &page);
+    for (;;)
+        for (const Event& event : answers()) {
+            if (event.key == gl::Key::space || event.kind == Event::Kind::option)
+                return true;
+            if (event.key == gl::Key::escape) {
+                if (leaves())
+                    return false;
+                showPicture(&page.picture, &page);
+            }
+        }
+}
+
+bool Presenter::leaves() {
+    showPicture(&leave_.picture, &leave_);
+    for (;;)
+        for (const Event& event : answers()) {
+            const int option = event.kind == Event::Kind::option ? event.option : optionOf(event.key);
+            if (option != 0 || event.key == gl::Key::escape)
+                return option == 2;
+        }
+}
+
+bool Presenter::instruct() { return read(sheet(instructionsPage(study_.protocol.texts))); }
+
+void Presenter::thank() {
+    const Sheet page = sheet(thanksPage(study_.protocol.texts));
+    showPicture(&page.picture, &page);
+    answers();
+}
+
+std::optional<std::string>
+Presenter::askId(const std::function<std::string(const std::string&)>& objection) {
+    std::string typed, problem;
+    for (;;) {
+        const Sheet page = sheet(idPage(typed, problem));
+        showPicture(&page.picture, &page);
+        for (const gl::Input& input : display_.window().wait()) {
+            const bool press = input.kind == gl::Input::Kind::press;
+            if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
+                return std::nullopt;
+            if (press && input.key == gl::Key::enter && (problem = objection(typed)).empty())
+                return typed;
+            if (edit(typed, input))
+                problem.clear();
+        }
+    }
+}
+
+void Presenter::prepare(const Upcoming& trial) {
+    const auto& pair = pairs_.at(static_cast<std::size_t>(trial.condition));
+    first_ = &pair[trial.reversed ? 1 : 0];
+    second_ = &pair[trial.reversed ? 0 : 1];
+    start_ = sheet(startPage(study_.protocol.texts, trial.index, trial.count));
+}
+
+double Presenter::show(Screen screen) {
+    switch (screen) {
+    case Screen::start:
+        return showPicture(&start_.picture, &start_);
+    case Screen::first:
+        return showPicture(first_, nullptr);
+    case Screen::second:
+        return showPicture(second_, nullptr);
+    case Screen::question:
+        return showPicture(&question_.picture, &question_);
+    case Screen::leave:
+        return showPicture(&leave_.picture, &leave_);
+    case Screen::mask:
+        break;
+    }
+    return showPicture(nullptr, nullptr);
 }
 
 } // namespace obscura

@@ -4,10 +4,11 @@
 #include "experiment/observer.h"
 #include "experiment/text.h"
 
+#include <array>
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -40,7 +41,8 @@ class Presenter : public Observer {
     Sheet sheet(Page page) const;
     gl::Picture load(const Manifest& manifest, const ImageRecord& record);
     double showPicture(const gl::Picture* picture, const Sheet* sheet);
-    Event read(const Sheet& sheet);
+    std::vector<Event> answers();
+    bool read(const Sheet& page);
     bool leaves();
 
     Display& display_;

@@ -32,10 +32,7 @@ void Recorder::trialStarted(int trial, const std::string& condition) {
     journal_.append(entry("trial_started", {{"trial", trial}, {"condition", condition}}));
 }
 
-void Recorder::record(const Response& row) {
-    rows_.append(responseLine(row));
-    journal_.append(entry("trial_recorded", {{"trial", row.trialIndex}}));
-}
+void Recorder::record(const Response& row) { rows_.append(responseLine(row)); }
 
 void Recorder::end(std::string_view reason) {
     journal_.append(entry("session_ended", {{"reason", reason}}));

@@ -9,10 +9,10 @@
 
 namespace obscura {
 
-// Keeps a session's rows and its journal, both safe on disk when a function returns. What the
-// journal says: session_started, then for each trial trial_started and trial_recorded, then
-// session_ended with the reason ("completed" or why not). A trial_started without trial_recorded
-// is an exposure that was broken off; a journal without session_ended is a crash.
+// Keeps a session's rows and its journal, both safe on disk when a function returns. The journal
+// says session_started, then trial_started for each trial before its first image, then
+// session_ended with the reason. A trial that was started but has no row was broken off while the
+// participant looked; a journal without session_ended is a crash.
 class Recorder {
   public:
     // New files; an Error when this session has any.

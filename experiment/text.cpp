@@ -29,7 +29,7 @@ using Font = std::unique_ptr<PangoFontDescription, Call<pango_font_description_f
 using FontOptions = std::unique_ptr<cairo_font_options_t, Call<cairo_font_options_destroy>>;
 
 constexpr const char* family = "DejaVu Sans, Noto Sans, Liberation Sans, Sans";
-constexpr double lineSpacing = 1.3;
+constexpr double lineSpacing = 1.18;
 constexpr double measure = 34; // line length in em: some 65 characters
 
 // Shades of grey that go with the page's own, in [0, 1].
@@ -134,22 +134,25 @@ void Setter::warning(const std::string& text) {
     y = height;
 }
 
+// Centred as a block, its lines flush left: a short line stands over the options, a long text
+// fills the column.
 void Setter::paragraph(const std::string& text, double size, bool bold) {
     if (text.empty())
         return;
     const Layout layout = lay(text, size, bold, column());
+    const Extent block = extent(layout.get());
     if (drawing) {
         ink(palette_.ink);
-        put(layout.get(), (width_ - column()) / 2, y);
+        put(layout.get(), (width_ - block.width) / 2, y);
     }
-    y += extent(layout.get()).height;
+    y += block.height;
 }
 
 void Setter::field(const std::string& typed) {
     const Layout layout = lay(typed + "\u2502", 1.1, false, column() - 1.2 * em_);
-    const double x = (width_ - column()) / 2, height = 2.2 * em_;
+    const double fieldWidth = 18 * em_, height = 2.2 * em_, x = (width_ - fieldWidth) / 2;
     if (drawing) {
-        rounded(x, y, 16 * em_, height, 0.3 * em_);
+        rounded(x, y, fieldWidth, height, 0.3 * em_);
         ink(palette_.card);
         cairo_fill_preserve(cairo_);
         ink(palette_.edge);
@@ -179,14 +182,16 @@ void Setter::drawCard(const Card& card, double x, double width) const {
     cairo_stroke(cairo_);
 
     const Extent key = extent(card.key.get()), label = extent(card.label.get());
-    const double capWidth = std::max(key.width, 1.0 * em_) + 1.0 * em_, capHeight = key.height + 0.6 * em_;
+    const double capWidth = std::max(key.width, 1.0 * em_) + 1.0 * em_;
+    const double capHeight = key.height + 0.6 * em_;
     const double left = std::round(x + (width - card.width) / 2 + 0.8 * em_);
     const double middle = y + card.height / 2;
-    rounded(left, middle - capHeight / 2, capWidth, capHeight, 0.25 * em_);
     ink(palette_.ink);
-    cairo_set_line_width(cairo_, 2);
-    cairo_stroke(cairo_);
     put(card.key.get(), left + (capWidth - key.width) / 2, middle - key.height / 2);
+    if (label.width == 0) // the card itself is the key
+        return;
+    rounded(left, middle - capHeight / 2, capWidth, capHeight, 0.25 * em_);
+    cairo_stroke(cairo_);
     put(card.label.get(), left + capWidth + 0.8 * em_, middle - label.height / 2);
 }
 

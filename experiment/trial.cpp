@@ -12,7 +12,8 @@ namespace {
 // Bridges et al. 2020 and PsychoPy: an interval above 1.2 refreshes is a missed one.
 constexpr double missedInterval = 1.2;
 
-// The option that a key stands for, 0 for none.
+} // namespace
+
 int optionOf(gl::Key key) {
     switch (key) {
     case gl::Key::one:
@@ -27,8 +28,6 @@ int optionOf(gl::Key key) {
         return 0;
     }
 }
-
-} // namespace
 
 TrialMachine::TrialMachine(const Trial& timeline, double refreshHz)
     : minimumView_(timeline.minimumView), refreshHz_(refreshHz) {

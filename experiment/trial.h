@@ -23,6 +23,9 @@ struct Event {
     int option = 0; // clicked with the mouse: 1 or 2
 };
 
+// The option that a key stands for: 1 (also left) or 2 (also right); 0 for none.
+int optionOf(gl::Key key);
+
 // What a trial yields. Times in seconds; onsets on the session's clock; a view lasts as long as
 // its picture was on the screen, pauses left out.
 struct TrialRecord {

@@ -27,7 +27,7 @@ Progress::~Progress() { print(done_, {}, true); }
 void Progress::update(double done, const std::string& note) {
     done_ = std::min(done, total_);
     const auto interval = terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(5);
-    if (Clock::now() - printed_ >= interval)
+    if (done_ < total_ && Clock::now() - printed_ >= interval)
         print(done_, note, false);
 }
 

@@ -61,8 +61,9 @@ class Net {
 
     Shape surface() {
         sample();
-        forEach(glm::ivec3(0), cells_, [&](glm::ivec3 c) { addVertex(c); });
-        forEach(glm::ivec3(1), cells_, [&](glm::ivec3 c) { addFaces(c); });
+        forNear([&](glm::ivec3 cell) { addVertex(cell); });
+        forNear([&](glm::ivec3 corner) { addFaces(corner); });
+        mendNormals(shape_);
         return std::move(shape_);
     }
 
@@ -77,6 +78,11 @@ class Net {
             for (int y = low.y; y < high.y; ++y)
                 for (int x = low.x; x < high.x; ++x)
                     visit(glm::ivec3(x, y, z));
+    }
+    template <typename Visit>
+    void forNear(const Visit& visit) const {
+        for (const glm::ivec3 low : near_)
+            forEach(low, low + block, visit);
     }
     static std::size_t index(glm::ivec3 p, glm::ivec3 n) {
         return static_cast<std::size_t>((p.z * n.y + p.y) * n.x + p.x);
@@ -96,6 +102,7 @@ class Net {
     glm::ivec3 cells_;
     std::vector<float> values_;
     std::vector<std::uint32_t> vertexOf_;
+    std::vector<glm::ivec3> near_; // the blocks that the surface may cross
     Shape shape_;
 };
 
@@ -106,6 +113,8 @@ void Net::sample() {
         const glm::ivec3 low = b * block;
         const float middle = field_(place(low) + 0.5F * static_cast<float>(block) * cell_);
         const bool far = std::abs(middle) > reach;
+        if (!far)
+            near_.push_back(low);
         // The last block of a row samples its far side too.
         const glm::ivec3 high = low + block + glm::ivec3(glm::equal(low + block, cells_));
         forEach(low, high, [&](glm::ivec3 p) {
@@ -122,6 +131,10 @@ glm::vec3 Net::settled(glm::vec3 p, glm::ivec3 cell) const {
 }
 
 void Net::addVertex(glm::ivec3 cell) {
+    int inside = 0;
+    forEach(cell, cell + 2, [&](glm::ivec3 corner) { inside += value(corner) < 0 ? 1 : 0; });
+    if (inside == 0 || inside == 8)
+        return;
     glm::vec3 sum(0);
     float crossings = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -136,8 +149,6 @@ void Net::addVertex(glm::ivec3 cell) {
             sum += glm::vec3(from) + glm::vec3(step) * (a / (a - b));
             crossings += 1;
         }
-    if (crossings == 0)
-        return;
     vertexOf_[index(cell, cells_)] = static_cast<std::uint32_t>(shape_.vertices.size());
     Vertex vertex;
     vertex.position = settled(low_ + cell_ * sum / crossings, cell);
@@ -147,6 +158,8 @@ void Net::addVertex(glm::ivec3 cell) {
 
 // The four cells round each edge that leaves `corner` upwards along an axis.
 void Net::addFaces(glm::ivec3 corner) {
+    if (std::min({corner.x, corner.y, corner.z}) == 0)
+        return; // the box's own faces
     for (int axis = 0; axis < 3; ++axis) {
         glm::ivec3 step(0), u(0), v(0);
         step[axis] = 1;

@@ -2,7 +2,6 @@
 
 #include "protocols/random.h"
 
-#include <cmath>
 #include <numeric>
 #include <vector>
 
@@ -36,21 +35,24 @@ T fade(T t) {
     return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F);
 }
 
-int wrapped(int i, int period) { return ((i % period) + period) % period; }
+// std::floor is a library call on x86-64's baseline, and a texture asks for tens of millions.
+int floorOf(float x) {
+    const int truncated = static_cast<int>(x);
+    return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+}
 
 } // namespace
 
 float Noise::value(glm::vec2 p, int period) const {
-    const glm::ivec2 low(glm::floor(p));
-    const glm::vec2 t = fade(p - glm::vec2(low));
-    const int x0 = wrapped(low.x, period), x1 = wrapped(low.x + 1, period);
-    const int y0 = wrapped(low.y, period), y1 = wrapped(low.y + 1, period);
+    const int x = floorOf(p.x), y = floorOf(p.y), mask = period - 1;
+    const glm::vec2 t = fade(p - glm::vec2(x, y));
+    const int x0 = x & mask, x1 = (x + 1) & mask, y0 = y & mask, y1 = (y + 1) & mask;
     return glm::mix(glm::mix(lattice(x0, y0, period), lattice(x1, y0, period), t.x),
                     glm::mix(lattice(x0, y1, period), lattice(x1, y1, period), t.x), t.y);
 }
 
 float Noise::value(glm::vec3 p) const {
-    const glm::ivec3 low(glm::floor(p));
+    const glm::ivec3 low(floorOf(p.x), floorOf(p.y), floorOf(p.z));
     const glm::vec3 t = fade(p - glm::vec3(low));
     std::array<float, 2> layers{};
     for (int k = 0; k < 2; ++k) {

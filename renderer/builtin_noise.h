@@ -15,7 +15,7 @@ class Noise {
     explicit Noise(std::string_view purpose);
 
     float value(glm::vec3 p) const; // -1 ... 1
-    // Repeats every `period` in both directions.
+    // Repeats every `period`, a power of two, in both directions.
     float value(glm::vec2 p, int period) const;
     // `octaves` of the above, each half as high and twice as fine.
     float clouds(glm::vec2 p, int period, int octaves) const;

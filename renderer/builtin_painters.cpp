@@ -48,13 +48,13 @@ Stone stoneAt(glm::vec2 metres, float period, glm::vec2 size, const Noise& noise
 
 Painter ashlar() {
     return [noise = Noise("builtin/ashlar")](glm::vec2 uv) {
-        const glm::vec2 ragged(noise.value(uv * 96.0F, 96), noise.value(uv * 96.0F + 31.0F, 96));
-        const glm::vec2 metres = 3.0F * glm::fract(uv + 0.0006F * ragged);
-        const Stone stone = stoneAt(metres, 3, {0.75F, 0.375F}, noise);
-        const float cloud = noise.clouds(uv * 8.0F, 8, 5);
-        const float grain = noise.clouds(uv * 192.0F, 192, 2);
+        const glm::vec2 ragged(noise.value(uv * 128.0F, 128), noise.value(uv * 128.0F + 31.0F, 128));
+        const glm::vec2 metres = 4.0F * glm::fract(uv + 0.0005F * ragged);
+        const Stone stone = stoneAt(metres, 4, {0.8F, 0.4F}, noise);
+        const float cloud = noise.clouds(uv * 8.0F, 8, 4);
+        const float grain = noise.clouds(uv * 256.0F, 256, 2);
         const float face = ramp(0.003F, 0.016F, stone.inside);
-        const float stain = ramp(0.05F, 0.6F, noise.clouds(uv * glm::vec2(6, 3) + 9.0F, 6, 4));
+        const float stain = ramp(0.05F, 0.6F, noise.clouds(uv * glm::vec2(8, 4) + 9.0F, 8, 3));
         glm::vec3 colour = glm::mix(glm::vec3(0.70F, 0.60F, 0.46F), glm::vec3(0.84F, 0.75F, 0.60F),
                                     0.65F * stone.tone + 0.6F * cloud + 0.2F);
         colour *= 1 + 0.10F * grain - 0.16F * stain;
@@ -68,12 +68,12 @@ Painter ashlar() {
 
 Painter limestone() {
     return [noise = Noise("builtin/limestone")](glm::vec2 uv) {
-        const float cloud = noise.clouds(uv * 6.0F, 6, 5);
-        const float bent = noise.clouds(uv * 4.0F + 3.0F, 4, 4);
-        const float vein = ramp(0.06F, 0, std::abs(noise.clouds(uv * 5.0F + 2.0F * bent, 5, 3)));
+        const float cloud = noise.clouds(uv * 8.0F, 8, 4);
+        const float bent = noise.clouds(uv * 4.0F + 3.0F, 4, 3);
+        const float vein = ramp(0.06F, 0, std::abs(noise.clouds(uv * 4.0F + 2.0F * bent, 4, 3)));
         const float pit = ramp(0.42F, 0.62F, noise.clouds(uv * 128.0F, 128, 2));
         Texel texel;
-        texel.colour = glm::mix(glm::vec3(0.78F, 0.73F, 0.64F), glm::vec3(0.90F, 0.86F, 0.78F),
+        texel.colour = glm::mix(glm::vec3(0.72F, 0.66F, 0.56F), glm::vec3(0.86F, 0.81F, 0.72F),
                                 0.5F + cloud);
         texel.colour *= 1 - 0.07F * vein - 0.18F * pit;
         texel.height = 0.002F * cloud - 0.002F * pit;
@@ -116,9 +116,9 @@ Painter fresco() {
     return [noise = Noise("builtin/fresco")](glm::vec2 uv) {
         // v runs down from the wall's top.
         const glm::vec2 metres(3 * uv.x, 4.5F * (1 - uv.y));
-        const float cloud = noise.clouds(uv * 5.0F, 5, 5);
-        const float trowel = noise.clouds(uv * glm::vec2(24, 48), 24, 3);
-        const float worn = ramp(0.10F, 0.30F, noise.clouds(uv * 7.0F + 5.0F, 7, 5) + 0.12F * trowel);
+        const float cloud = noise.clouds(uv * 4.0F, 4, 4);
+        const float trowel = noise.clouds(uv * glm::vec2(32, 64), 32, 3);
+        const float worn = ramp(0.10F, 0.30F, noise.clouds(uv * 8.0F + 5.0F, 8, 4) + 0.12F * trowel);
         const float damp = ramp(0.5F, 0, metres.y + 0.35F * cloud);
         glm::vec3 colour = frescoColour(metres);
         colour = glm::mix(colour, glm::vec3(0.84F, 0.77F, 0.66F), 0.30F * worn);
@@ -130,13 +130,26 @@ Painter fresco() {
     };
 }
 
+Painter plaster() {
+    return [noise = Noise("builtin/plaster")](glm::vec2 uv) {
+        const float cloud = noise.clouds(uv * 4.0F, 4, 4);
+        const float trowel = noise.clouds(uv * glm::vec2(32, 64), 32, 3);
+        const float stain = ramp(0.05F, 0.5F, noise.clouds(uv * 4.0F + 7.0F, 4, 4));
+        Texel texel;
+        texel.colour = glm::vec3(0.86F, 0.78F, 0.64F) * (1 + 0.14F * cloud + 0.06F * trowel);
+        texel.colour *= 1.0F - glm::vec3(0.14F, 0.17F, 0.20F) * stain;
+        texel.height = 0.004F * cloud + 0.0025F * trowel;
+        return texel;
+    };
+}
+
 Painter flagstones() {
     return [noise = Noise("builtin/flagstones")](glm::vec2 uv) {
         const glm::vec2 ragged(noise.value(uv * 64.0F, 64), noise.value(uv * 64.0F + 21.0F, 64));
-        const glm::vec2 metres = 3.0F * glm::fract(uv + 0.001F * ragged);
-        const Stone stone = stoneAt(metres, 3, {0.75F, 0.5F}, noise);
-        const float cloud = noise.clouds(uv * 10.0F, 10, 5);
-        const float grain = noise.clouds(uv * 160.0F, 160, 2);
+        const glm::vec2 metres = 4.0F * glm::fract(uv + 0.001F * ragged);
+        const Stone stone = stoneAt(metres, 4, {0.8F, 0.5F}, noise);
+        const float cloud = noise.clouds(uv * 8.0F, 8, 4);
+        const float grain = noise.clouds(uv * 256.0F, 256, 2);
         const float face = ramp(0.004F, 0.022F, stone.inside);
         const glm::vec3 warm = glm::mix(glm::vec3(0.62F, 0.56F, 0.48F),
                                         glm::vec3(0.76F, 0.71F, 0.62F), stone.tone);
@@ -163,9 +176,9 @@ Painter marbleFloor() {
         const float joint = glm::min(glm::min(0.5F - glm::max(local.x, local.y),
                                               std::abs(lozenge - 0.46F)),
                                      std::abs(lozenge - 0.84F)) * 0.75F;
-        const float bent = noise.clouds(uv * 6.0F + 2.0F, 6, 4);
+        const float bent = noise.clouds(uv * 8.0F + 2.0F, 8, 3);
         const float vein = ramp(0.07F, 0, std::abs(noise.clouds(uv * 8.0F + 1.5F * bent, 8, 4)));
-        const float cloud = noise.clouds(uv * 12.0F, 12, 4);
+        const float cloud = noise.clouds(uv * 16.0F, 16, 3);
         const glm::vec3 pale = glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.66F, 0.60F, 0.52F),
                                         0.7F * vein);
         const glm::vec3 green = glm::mix(glm::vec3(0.20F, 0.27F, 0.24F), glm::vec3(0.47F, 0.53F, 0.47F),
@@ -221,9 +234,9 @@ Painter cloth(glm::vec3 colour, glm::vec3 trim) {
 
 Painter glaze(glm::vec3 colour) {
     return [colour, noise = Noise("builtin/glaze")](glm::vec2 uv) {
-        const float cloud = noise.clouds(uv * 4.0F, 4, 5);
+        const float cloud = noise.clouds(uv * 4.0F, 4, 4);
         const float drip = ramp(-0.1F, 0.3F, noise.clouds(uv * glm::vec2(8, 2) + 4.0F, 8, 3));
-        const float crackle = ramp(0.02F, 0, std::abs(noise.clouds(uv * 24.0F, 24, 2)));
+        const float crackle = ramp(0.02F, 0, std::abs(noise.clouds(uv * 32.0F, 32, 2)));
         Texel texel;
         texel.colour = colour * (0.85F + 0.5F * cloud + 0.12F * drip) * (1 - 0.25F * crackle);
         texel.height = 0.0008F * cloud;

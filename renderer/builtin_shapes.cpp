@@ -94,6 +94,7 @@ Shape patch(const Surface& surface, int across, int up, glm::vec2 metres) {
             shape.vertices.push_back({surface(uv), normalOf(surface, uv), {}, uv * metres});
         }
     addCells(shape, across, up);
+    mendNormals(shape);
     return shape;
 }
 
@@ -238,6 +239,24 @@ void deform(Shape& shape, const Mapping& mapping) {
                                        vertex.normal);
         vertex.position = mapping(vertex.position);
     }
+}
+
+void mendNormals(Shape& shape) {
+    std::vector<bool> wrong(shape.vertices.size());
+    std::vector<glm::vec3> faces(shape.vertices.size());
+    for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
+        const auto vertex = [&](std::size_t k) { return shape.vertices[shape.indices[i + k]]; };
+        const glm::vec3 a = vertex(0).position;
+        const glm::vec3 face = glm::cross(vertex(1).position - a, vertex(2).position - a);
+        for (std::size_t k = 0; k < 3; ++k) {
+            faces[shape.indices[i + k]] += face;
+            if (glm::dot(face, vertex(k).normal) <= 0)
+                wrong[shape.indices[i + k]] = true;
+        }
+    }
+    for (std::size_t i = 0; i < wrong.size(); ++i)
+        if (wrong[i])
+            shape.vertices[i].normal = glm::normalize(faces[i]);
 }
 
 void projectUv(Shape& shape) {

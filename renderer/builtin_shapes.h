@@ -72,6 +72,10 @@ Shape box(glm::vec3 size, float bevel);
 using Mapping = std::function<glm::vec3(glm::vec3)>;
 void deform(Shape& shape, const Mapping& mapping);
 
+// In a crease finer than the mesh a triangle may face against the surface's own normal at a corner;
+// such a corner takes the mean of the faces that meet there instead.
+void mendNormals(Shape& shape);
+
 // Texture coordinates by projection along the axis that the normal is nearest to, as stone is cut.
 void projectUv(Shape& shape);
 

@@ -3,6 +3,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -74,20 +75,51 @@ const gl::Texture& GpuScene::texture(int index) const {
     return index < 0 ? white_ : textures_[static_cast<std::size_t>(index)];
 }
 
-void GpuScene::draw(const gl::Program& program, bool cullBackFaces, gl::State state) const {
+void GpuScene::bindMaterial(const gl::Program& program, const Material& material) const {
+    gl::bindTexture(0, texture(material.baseColourTexture));
+    gl::bindTexture(1, texture(material.normalTexture));
+    gl::bindTexture(2, texture(material.metallicRoughnessTexture));
+    program.set("baseColour", std::span<const float, 4>(glm::value_ptr(material.baseColour), 4));
+    const float surface[4] = {material.alphaCutoff, material.metallic, material.roughness,
+                              material.normalTexture < 0 ? 0.0f : material.normalScale};
+    program.set("surface", std::span<const float, 4>(surface));
+}
+
+void GpuScene::draw(const gl::Program& program, Take take, bool cullBackFaces,
+                    gl::State state) const {
+    program.use();
     geometry_.bind();
     for (const Mesh& mesh : meshes_) {
         const Material& material = materials_[static_cast<std::size_t>(mesh.material)];
+        const bool masked = material.alphaCutoff > 0;
+        if ((take == Take::opaque && masked) || (take == Take::masked && !masked))
+            continue;
         state.cullBack = cullBackFaces && !material.doubleSided;
         state.apply();
-        gl::bindTexture(0, texture(material.baseColourTexture));
-        gl::bindTexture(1, texture(material.normalTexture));
-        gl::bindTexture(2, texture(material.metallicRoughnessTexture));
-        program.set("baseColour", std::span<const float, 4>(glm::value_ptr(material.baseColour), 4));
-        const float surface[4] = {material.alphaCutoff, material.metallic, material.roughness,
-                                  material.normalTexture < 0 ? 0.0f : material.normalScale};
-        program.set("surface", std::span<const float, 4>(surface));
+        if (take != Take::opaque)
+            bindMaterial(program, material);
         geometry_.draw(mesh.firstIndex, mesh.indexCount);
+    }
+}
+
+gl::ShaderText DepthPass::fragmentShader(bool masked) {
+    gl::ShaderText text;
+    text.add(masked ? "#define MASKED 1" : "#define MASKED 0", "(variant)");
+    text.addFile(shaderFolder(), "depth_only.frag");
+    return text;
+}
+
+DepthPass::DepthPass()
+    : opaque_("depth of opaque", shaderText("depth_only.vert"), fragmentShader(false)),
+      masked_("depth of masked", shaderText("depth_only.vert"), fragmentShader(true)) {}
+
+void DepthPass::draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool cullBackFaces,
+                     const gl::State& state) const {
+    for (const gl::Program* program : {&opaque_, &masked_}) {
+        program->setMatrix("clipFromWorld",
+                           std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
+        scene.draw(*program, program == &opaque_ ? GpuScene::Take::opaque : GpuScene::Take::masked,
+                   cullBackFaces, state);
     }
 }
 
@@ -124,10 +156,16 @@ void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer&
         target.clear(2, {0, 0, 1, 1});
     gl::State state;
     state.depth = gl::State::Depth::reversed;
+    state.colour = false;
     state.apply();
     target.clearDepth(0);
-    program_.use();
-    scene.draw(program_, true, state);
+    const glm::mat4 clipFromWorld = frame.clipFromView * frame.viewFromWorld;
+    depth_.draw(scene, clipFromWorld, true, state);
+    state.depth = gl::State::Depth::equal;
+    state.colour = true;
+    program_.setMatrix("clipFromWorld",
+                       std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
+    scene.draw(program_, GpuScene::Take::all, true, state);
 }
 
 std::filesystem::path shaderFolder() {

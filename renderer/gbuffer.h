@@ -22,12 +22,15 @@ class GpuScene {
     explicit GpuScene(const Scene& scene);
 
     const Bounds& bounds() const { return bounds_; }
-    // Draws everything with the program that is in use. Samplers: 0 base colour, 1 normal map,
-    // 2 metallic and roughness; uniforms: see shaders/material.glsl.
-    void draw(const gl::Program& program, bool cullBackFaces, gl::State state) const;
+    // Which materials a draw() takes, and whether it skips back faces that cannot be seen (those of
+    // materials that are not double-sided).
+    enum class Take { all, opaque, masked };
+    // Draws with a program that reads shaders/material.glsl; opaque depth alone needs no material.
+    void draw(const gl::Program& program, Take take, bool cullBackFaces, gl::State state) const;
 
   private:
     const gl::Texture& texture(int index) const;
+    void bindMaterial(const gl::Program& program, const Material& material) const;
 
     Bounds bounds_;
     std::vector<Mesh> meshes_;
@@ -59,6 +62,20 @@ class GBuffer {
 void bindFrame(const gl::UniformBuffer& frame);
 gl::UniformBuffer frameBuffer(const Frame& frame);
 
+// Depth alone, with holes where masked materials have them: what the G-buffer's pass shades once
+// per pixel, and what the sun sees.
+class DepthPass {
+  public:
+    DepthPass();
+    void draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool cullBackFaces,
+              const gl::State& state) const;
+
+    static gl::ShaderText fragmentShader(bool masked);
+
+  private:
+    gl::Program opaque_, masked_;
+};
+
 class GBufferPass {
   public:
     GBufferPass();
@@ -66,6 +83,7 @@ class GBufferPass {
     void draw(const GpuScene& scene, const Frame& frame, const GBuffer& gbuffer) const;
 
   private:
+    DepthPass depth_;
     gl::Program program_;
 };
 

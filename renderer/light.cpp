@@ -4,6 +4,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -99,18 +100,14 @@ ShadowMap::ShadowMap(const GpuScene& scene, const Sun& sun, int size)
     lightFromWorld_ = glm::orthoRH_ZO(-radius, radius, -radius, radius, 0.0f, 2 * radius) * view;
     texel_ = 2 * radius / static_cast<float>(size);
 
-    const gl::Program program("shadow", shaderText("shadow.vert"), shaderText("shadow.frag"));
     target_.bind();
     gl::State state;
-    state.depth = gl::State::Depth::nearest;
+    state.depth = gl::State::Depth::forward;
     state.slopeBias = 2;
     state.constantBias = 2;
     state.apply();
     target_.clearDepth(1);
-    program.use();
-    program.setMatrix("lightFromWorld",
-                      std::span<const float, 16>(glm::value_ptr(lightFromWorld_), 16));
-    scene.draw(program, false, state);
+    DepthPass().draw(scene, lightFromWorld_, false, state);
 }
 
 namespace {

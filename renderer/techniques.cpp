@@ -68,7 +68,7 @@ constexpr Parameter noOcclusion{
     0.01f, 100};
 constexpr Parameter attenuation{
     "attenuation", Unit::ratio,
-    "depth difference, in radii, at which accessibility is one half, before the power", 0.7f, 1e-3f,
+    "depth difference, in radii, at which accessibility is one half, before the power", 0.35f, 1e-3f,
     1e3f};
 constexpr Parameter power{"power", Unit::ratio, "exponent of accessibility", 2, 0.01f, 64};
 

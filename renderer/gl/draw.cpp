@@ -13,8 +13,12 @@ void enable(GLenum capability, bool on) { (on ? glEnable : glDisable)(capability
 void State::apply() const {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
     enable(GL_DEPTH_TEST, depth != Depth::off);
-    glDepthMask(depth != Depth::off);
-    glDepthFunc(depth == Depth::reversed ? GL_GREATER : GL_LESS);
+    glDepthMask(depth == Depth::reversed || depth == Depth::forward);
+    glDepthFunc(depth == Depth::reversed  ? GL_GREATER
+                : depth == Depth::forward ? GL_LESS
+                                          : GL_EQUAL);
+    const GLboolean write = colour ? GL_TRUE : GL_FALSE;
+    glColorMask(write, write, write, write);
     enable(GL_CULL_FACE, cullBack);
     enable(GL_BLEND, add);
     glBlendFunc(GL_ONE, GL_ONE);

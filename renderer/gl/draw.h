@@ -11,9 +11,11 @@ namespace obscura::gl {
 
 // Fixed-function state of a pass; apply() sets all of it, so no pass depends on the one before.
 struct State {
-    // Depth is reversed (1 near, 0 infinitely far): greater passes. Shadow maps use `nearest`,
-    // where less passes.
-    enum class Depth { off, reversed, nearest } depth = Depth::off;
+    // Cameras have reversed depth (1 near, 0 infinitely far), where greater passes; the sun's runs
+    // forwards, where less passes; equal draws what an earlier pass found nearest, and leaves its
+    // depth.
+    enum class Depth { off, reversed, forward, equal } depth = Depth::off;
+    bool colour = true; // draw into the colour targets too
     bool cullBack = false;
     bool add = false; // blend: add to what is there
     float slopeBias = 0, constantBias = 0; // polygon offset

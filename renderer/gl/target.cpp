@@ -70,7 +70,9 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
     setParameter(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     setParameter(texture, GL_TEXTURE_WRAP_S, wrap.repeatU ? GL_REPEAT : GL_CLAMP_TO_EDGE);
     setParameter(texture, GL_TEXTURE_WRAP_T, wrap.repeatV ? GL_REPEAT : GL_CLAMP_TO_EDGE);
-    if (epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+    // Colour only: software drivers take five times as long for it, and blurred relief at grazing
+    // angles is not seen.
+    if (srgb && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
         GLfloat most = 1;
         glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
         glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));

@@ -71,11 +71,6 @@ void hintWindow(const GLFWvidmode& mode) {
     glfwWindowHint(GLFW_REFRESH_RATE, mode.refreshRate);
 }
 
-std::string text(GLenum name) {
-    const auto* value = reinterpret_cast<const char*>(glGetString(name));
-    return value ? value : "";
-}
-
 } // namespace
 
 Window::Library::Library() {
@@ -102,6 +97,7 @@ Window::Window(const WindowOptions& options) {
     open(options);
     listen();
     glfwMakeContextCurrent(window_.get());
+    collectMessages();
     glfwSwapInterval(1);
     glDisable(GL_FRAMEBUFFER_SRGB);
     glDisable(GL_DITHER);
@@ -186,10 +182,6 @@ double Window::contentScale() const {
     glfwGetWindowContentScale(window_.get(), &x, &y);
     return static_cast<double>(x);
 }
-
-std::string Window::glVendor() const { return text(GL_VENDOR); }
-std::string Window::glRenderer() const { return text(GL_RENDERER); }
-std::string Window::glVersion() const { return text(GL_VERSION); }
 
 double Window::now() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/gl/context.h"
 #include "renderer/gl/input.h"
 #include "renderer/gl/picture.h"
 
@@ -46,9 +47,7 @@ class Window {
     int height() const { return height_; }
     double contentScale() const;
     const Monitor& monitor() const { return monitor_; }
-    std::string glVendor() const;
-    std::string glRenderer() const;
-    std::string glVersion() const;
+    Driver driver() const { return currentDriver(); }
 
     double now() const; // seconds since the window was made, steady
 
@@ -58,6 +57,8 @@ class Window {
     void draw(const Picture& picture);
     // Waits until all drawing is done.
     void finish();
+    // Raises as an Error what the driver has complained of since the window was made.
+    void check() { throwMessages(); }
     // Puts the back buffer on screen. Returns when the driver has done so, as far as it tells:
     // with a vertical blank, after it.
     void swap();

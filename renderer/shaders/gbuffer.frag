@@ -22,7 +22,7 @@ vec3 shadingNormal() {
 }
 
 void main() {
-    vec4 colour = cutOut(materialUv);
+    vec4 colour = baseColourAt(materialUv);
     vec4 metallicRoughness = texture(metallicRoughnessMap, materialUv);
     float metallic = surface.y * metallicRoughness.b;
     float roughness = clamp(surface.z * metallicRoughness.g, 0.045, 1.0);

@@ -3,6 +3,9 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
 
+uniform mat4 clipFromWorld;
+invariant gl_Position;
+
 out vec3 viewNormal;
 out vec4 viewTangent;
 out vec2 materialUv;
@@ -15,5 +18,5 @@ void main() {
     viewTangent = vec4(rotation * tangent.xyz, tangent.w);
     materialUv = uv;
     viewDepth = -viewPosition.z;
-    gl_Position = frame.clipFromView * viewPosition;
+    gl_Position = clipFromWorld * vec4(position, 1.0);
 }

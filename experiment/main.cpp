@@ -1,0 +1,222 @@
+#include "experiment/data_folder.h"
+#include "experiment/ledger.h"
+#include "experiment/presenter.h"
+#include "experiment/session.h"
+#include "protocols/error.h"
+#include "protocols/progress.h"
+#include "protocols/version.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace obscura {
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path protocol, stimuli, data = "participant_data";
+    std::string participant;
+    int session = 1;
+    int monitor = 1;
+    std::string windowSize = "1280x800"; // with --windowed
+    bool windowed = false, acceptUntimed = false, listMonitors = false;
+    bool simulate = false;
+    int simulated = 0; // how many; 0 as the protocol plans
+    std::optional<std::uint64_t> seed;
+    bool ledger = false;
+    int returned = 0; // slot, with ledger --void
+};
+
+void declare(CLI::App& app, Arguments& arguments) {
+    app.set_version_flag("--version", fmt::format("{} ({})", version(), commit()));
+    app.add_option("--protocol", arguments.protocol, "The study: a TOML file")->type_name("FILE");
+    app.add_option("--stimuli", arguments.stimuli, "The folder that obscura-stimuli wrote for it")
+        ->type_name("DIR");
+    app.add_option("--data", arguments.data, "Where answers go; each study gets a folder in it")
+        ->type_name("DIR")
+        ->capture_default_str();
+    app.add_option("--participant", arguments.participant,
+                   "Pseudonym, letters and digits; asked for on the screen when not given")
+        ->type_name("ID");
+    app.add_option("--session", arguments.session, "Which session of this participant")
+        ->type_name("N")
+        ->check(CLI::Range(1, 99))
+        ->capture_default_str();
+    app.add_option("--monitor", arguments.monitor, "Which monitor, as --list-monitors counts them")
+        ->type_name("N")
+        ->capture_default_str();
+    app.add_flag("--list-monitors", arguments.listMonitors, "Name the monitors, and end");
+    app.add_option("--windowed", arguments.windowSize,
+                   "Rehearse in a window, of 1280x800 unless a size is given")
+        ->type_name("WxH")
+        ->expected(0, 1)
+        ->trigger_on_parse()
+        ->each([&](const std::string&) { arguments.windowed = true; });
+    app.add_flag("--accept-untimed", arguments.acceptUntimed,
+                 "Leave out the warning on displays without a vertical blank");
+    CLI::Option* simulate =
+        app.add_option("--simulate", arguments.simulated,
+                       "Run N simulated participants, without a window; as many as the protocol "
+                       "plans when N is left out")
+            ->type_name("N")
+            ->expected(0, 1)
+            ->check(CLI::Range(1, 100000));
+    app.add_option("--seed", arguments.seed,
+                   "Seed of the simulated participants; the protocol's when not given")
+        ->type_name("S")
+        ->needs(simulate);
+
+    CLI::App* ledger = app.add_subcommand(
+        "ledger", "List who has which slot of the ordering scheme, or give a slot back");
+    ledger->add_option("--protocol", arguments.protocol, "The study: a TOML file")
+        ->type_name("FILE")
+        ->required();
+    ledger->add_option("--data", arguments.data, "The data folder")
+        ->type_name("DIR")
+        ->capture_default_str();
+    ledger
+        ->add_option("--void", arguments.returned,
+                     "Give slot N back, so that the next participant gets it")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000));
+    app.footer(
+        "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to end.\n"
+        "Example: obscura-experiment --protocol protocols/demo.toml --stimuli stimuli_out/demo");
+}
+
+int listMonitors() {
+    int number = 0;
+    for (const gl::Monitor& monitor : gl::monitors())
+        fmt::print("{}  {}  {}x{} at {} Hz, {}x{} mm\n", ++number, monitor.name, monitor.width,
+                   monitor.height, monitor.refreshHz, monitor.widthMm, monitor.heightMm);
+    return 0;
+}
+
+void print(const SlotRecord& record) {
+    constexpr const char* states[] = {"reserved", "completed", "void"};
+    fmt::print("{:4}  {:9}  {:12}  session {}  {}{}\n", record.slot,
+               states[static_cast<std::size_t>(record.state)], record.session.participant,
+               record.session.number, record.time,
+               isOrphan(record) ? "  its process has died; --void gives the slot back" : "");
+}
+
+int editLedger(const Arguments& arguments) {
+    const Protocol protocol = readProtocol(arguments.protocol);
+    Ledger ledger(DataFolder(arguments.data, protocol).ledger());
+    if (arguments.returned)
+        ledger.giveBack(arguments.returned);
+    for (const SlotRecord& record : ledger.records())
+        print(record);
+    return 0;
+}
+
+int simulate(const Arguments& arguments, const Study& study) {
+    verifyStimuli(study.manifest);
+    const Protocol& protocol = study.protocol;
+    const DataFolder folder(arguments.data, protocol);
+    const int count =
+        arguments.simulated ? arguments.simulated : protocol.ordering.participants;
+    Progress progress("simulated participants", count);
+    for (int i = 1; i <= count; ++i) {
+        const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
+        if (const std::string problem = objection(folder, session); !problem.empty())
+            throw Error(problem + "; or another data folder: --data DIR");
+        SimulatedObserver observer(protocol, arguments.seed.value_or(protocol.seed),
+                                   session.participant);
+        runSession(study, folder, session, observer);
+        progress.update(i, session.participant);
+    }
+    return 0;
+}
+
+gl::WindowOptions windowOptions(const Arguments& arguments) {
+    gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt};
+    if (!arguments.windowed)
+        return options;
+    gl::WindowOptions::Size size{};
+    int read = 0;
+    if (std::sscanf(arguments.windowSize.c_str(), "%dx%d%n", &size.width, &size.height, &read) != 2 ||
+        read != static_cast<int>(arguments.windowSize.size()) || size.width < 1 || size.height < 1)
+        throw Error(fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"",
+                                arguments.windowSize));
+    options.windowed = size;
+    return options;
+}
+
+// What stands above every page of text, and on stderr: the session is no measurement.
+std::string warning(const Arguments& arguments, const Refresh& refresh) {
+    if (!refresh.doubt.empty()) {
+        fmt::print(stderr,
+                   "obscura-experiment: no vertical blank to go by ({}). Pictures are paced by the "
+                   "clock at 60 Hz, rows are marked timestamp_source none: not suitable for data "
+                   "collection.\n",
+                   refresh.doubt);
+        return arguments.acceptUntimed ? "" : "Untimed display: not suitable for data collection";
+    }
+    return arguments.windowed ? "Rehearsal in a window: not suitable for data collection" : "";
+}
+
+void reportOrphans(const DataFolder& folder) {
+    for (const SlotRecord& record : Ledger(folder.ledger()).records())
+        if (isOrphan(record))
+            fmt::print(stderr,
+                       "obscura-experiment: the session of {} broke off; its slot {} stays reserved "
+                       "until obscura-experiment ledger --void {}\n",
+                       record.session.participant, record.slot, record.slot);
+}
+
+int present(const Arguments& arguments, const Study& study) {
+    const DataFolder folder(arguments.data, study.protocol);
+    const auto problemWith = [&](const std::string& id) {
+        return objection(folder, {id, arguments.session, false});
+    };
+    if (!arguments.participant.empty())
+        if (const std::string problem = problemWith(arguments.participant); !problem.empty())
+            throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
+    reportOrphans(folder);
+
+    Display display(windowOptions(arguments), study.protocol.trial.grey);
+    Presenter presenter(display, study, warning(arguments, display.refresh()));
+    const std::optional<std::string> id = arguments.participant.empty()
+                                              ? presenter.askId(problemWith)
+                                              : std::optional(arguments.participant);
+    if (!id)
+        return 0;
+    const SessionId session{*id, arguments.session, false};
+    const bool completed = runSession(study, folder, session, presenter);
+    fmt::print("{}: {}\n", folder.rows(session).string(),
+               completed ? "complete" : "ended before the last trial; its slot has been given back");
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Shows a study's image pairs to one participant, full screen, and records the "
+                 "answers. Also runs simulated participants.",
+                 "obscura-experiment");
+    Arguments arguments;
+    declare(app, arguments);
+    CLI11_PARSE(app, argc, argv);
+    arguments.simulate = app.count("--simulate") > 0;
+
+    if (arguments.listMonitors)
+        return listMonitors();
+    if (app.got_subcommand("ledger"))
+        return editLedger(arguments);
+    if (arguments.protocol.empty() || arguments.stimuli.empty())
+        throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
+    const Study study = openStudy(arguments.protocol, arguments.stimuli);
+    return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
+}
+
+} // namespace
+
+} // namespace obscura
+
+int main(int argc, char** argv) {
+    return obscura::runProgram("obscura-experiment", obscura::run, argc, argv);
+}

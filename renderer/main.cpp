@@ -1,0 +1,225 @@
+#include "protocols/files.h"
+#include "renderer/builtin.h"
+#include "renderer/render.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace {
+
+using namespace obscura;
+namespace fs = std::filesystem;
+
+struct Options {
+    bool devices = false, list = false, layers = false;
+    std::string device, scene = "atrium", techniqueId = "none", level = "moderate", scenes;
+    std::string recipe, describe;
+    std::vector<std::string> settings;
+    std::vector<double> camera;
+    double fovDegrees = 50, radius = 0.5, exposure = 0;
+    int width = 1280, height = 720, antialiasing = 4;
+    int seed = 1;
+    fs::path out = "render.png";
+    fs::path protocol;
+    std::string condition;
+    int member = 0;
+};
+
+int printDevices() {
+    bool any = false;
+    for (const gl::Device& device : gl::devices()) {
+        any |= device.problem.empty();
+        if (device.problem.empty())
+            fmt::print("{:<12} {} / {} / {}{}\n", device.name, device.driver.vendor,
+                       device.driver.renderer, device.driver.version,
+                       device.driver.software ? "  (software)" : "");
+        else
+            fmt::print("{:<12} cannot be used: {}\n", device.name, device.problem);
+    }
+    if (!any)
+        gl::Context context; // throws, naming all that was tried
+    return 0;
+}
+
+int printTechniques() {
+    for (const Technique& row : techniques())
+        fmt::print("{:<20} {}  [{}]\n", row.id, row.title, row.citation);
+    return 0;
+}
+
+std::string_view spell(Unit unit) {
+    switch (unit) {
+    case Unit::metre:
+        return "m";
+    case Unit::ratio:
+        return "ratio";
+    case Unit::count:
+        return "count";
+    case Unit::flag:
+        break;
+    }
+    return "0 or 1";
+}
+
+int printTechnique(const std::string& id) {
+    const Technique& row = technique(id);
+    fmt::print("{}: {}\n{}\n", row.id, row.title, row.citation);
+    for (const Parameter& parameter : row.parameters)
+        fmt::print("  {:<16} {:>8} {:<7} [{}, {}]  {}\n", parameter.name, parameter.value,
+                   spell(parameter.unit), parameter.low, parameter.high, parameter.meaning);
+    return 0;
+}
+
+// The image that a protocol's condition shows.
+Recipe recipeOfProtocol(const Options& options, const Folders& folders, const gl::Driver& driver) {
+    const Protocol protocol = readProtocol(options.protocol);
+    std::vector<std::string> ids;
+    for (const Condition& condition : protocol.conditions) {
+        if (condition.id == options.condition)
+            return makeRecipe(protocol, condition, options.member, folders, driver);
+        ids.push_back(condition.id);
+    }
+    throw Error(fmt::format("{} has no condition \"{}\"{}", options.protocol.string(),
+                            options.condition, suggestion(options.condition, ids)));
+}
+
+Level levelOf(const std::string& name) {
+    Level level;
+    level.name = name;
+    if (name == "low") {
+        level.ambient = Vec3{1, 1, 1};
+        level.curve = Curve::clamp;
+        return level;
+    }
+    level.sky = Sky{};
+    if (name == "high")
+        level.sun = Sun{62, 66, {4, 3.8, 3.4}};
+    return level;
+}
+
+// One view put together on the command line.
+Recipe recipeOfOptions(const Options& options, const Folders& folders, const gl::Driver& driver) {
+    if (options.camera.size() != 6)
+        throw Error("expected --camera with six numbers, position and target: --camera 0 2 8 0 1 0");
+    const auto& c = options.camera;
+    Protocol protocol;
+    protocol.seed = static_cast<std::uint64_t>(options.seed);
+    protocol.width = options.width;
+    protocol.height = options.height;
+    protocol.antialiasing = options.antialiasing;
+    View view;
+    view.name = options.scene;
+    const auto builtins = builtinSceneNames();
+    const bool builtin = std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
+    (builtin ? view.builtin : view.file) = options.scene;
+    view.camera.position = {c[0], c[1], c[2]};
+    view.camera.target = {c[3], c[4], c[5]};
+    view.camera.fovDegrees = options.fovDegrees;
+    view.radius = options.radius;
+    view.exposure = options.exposure;
+    protocol.views.push_back(view);
+    protocol.levels.push_back(levelOf(options.level));
+    TechniqueSetting setting{"technique", options.techniqueId, {}, {}};
+    for (const std::string& text : options.settings) {
+        const std::size_t equals = text.find('=');
+        if (equals == std::string::npos)
+            throw Error(fmt::format("expected --set NAME=NUMBER, found \"{}\"", text));
+        setting.settings.push_back(
+            {text.substr(0, equals), std::strtod(text.c_str() + equals + 1, nullptr), {}});
+    }
+    protocol.techniques.push_back(setting);
+    Condition condition;
+    condition.view = view.name;
+    condition.level = options.level;
+    condition.pair = {"technique", "technique"};
+    return makeRecipe(protocol, condition, 0, folders, driver);
+}
+
+void writeLayers(const fs::path& out, const Rendering& rendering) {
+    const auto beside = [&](const std::string& kind) {
+        fs::path path = out;
+        return path.replace_filename(out.stem().string() + "-" + kind + ".exr");
+    };
+    const std::vector<std::string> names{"R", "G", "B", "A"};
+    writeExr(beside("ao"), rendering.visibility, std::array{std::string("V")}, true);
+    for (const auto& [kind, image] : rendering.layers)
+        writeExr(beside(kind), image, std::span(names).first(static_cast<std::size_t>(image.channels)),
+                 kind == "depth");
+}
+
+int render(const Options& options) {
+    const gl::Context context(options.device);
+    const Folders folders{options.scenes, options.protocol.parent_path()};
+    const Recipe recipe = options.protocol.empty()
+                              ? recipeOfOptions(options, folders, context.driver())
+                              : recipeOfProtocol(options, folders, context.driver());
+    RecipeRenderer renderer(folders);
+    const Rendering rendering = renderer.render(recipe, options.layers);
+    for (const std::string& warning : renderer.sceneWarnings())
+        fmt::print(stderr, "warning: {}\n", warning);
+    writePng(options.out, rendering.image);
+    fs::path ao = options.out;
+    ao.replace_filename(options.out.stem().string() + "-ao.png");
+    Image8 grey{rendering.visibility.width, rendering.visibility.height, 1, {}};
+    for (const float v : rendering.visibility.pixels)
+        grey.pixels.push_back(static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f));
+    writePng(ao, grey);
+    if (options.layers)
+        writeLayers(options.out, rendering);
+    const StageTimes& t = renderer.times();
+    fmt::print("{} and {}: mean occlusion {:.4f}; seconds: scene {:.2f}, G-buffer {:.2f}, light "
+               "{:.2f}, occlusion {:.2f}, composite {:.2f}, hash {:.2f}\n",
+               options.out.string(), ao.string(), rendering.meanOcclusion, t.scene, t.gbuffer,
+               t.light, t.occlusion, t.composite, t.hash);
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    Options options;
+    const char* scenes = std::getenv("OBSCURA_SCENES");
+    options.scenes = scenes ? scenes : ".";
+    CLI::App app("obscura-render: one image, or what there is to render with");
+    app.add_flag("--devices", options.devices, "list the devices that can render, and stop");
+    app.add_flag("--list", options.list, "list the techniques, and stop");
+    app.add_option("--describe", options.describe, "print a technique's settings, and stop");
+    app.add_option("--device", options.device, "render with this device of --devices");
+    app.add_option("--scene", options.scene, "built-in scene or glTF file in the scenes folder")
+        ->capture_default_str();
+    app.add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
+    app.add_option("--camera", options.camera, "position x y z, target x y z")->expected(6);
+    app.add_option("--fov", options.fovDegrees, "vertical, degrees")->capture_default_str();
+    app.add_option("--exposure", options.exposure, "stops")->capture_default_str();
+    app.add_option("--level", options.level, "low, moderate or high")
+        ->check(CLI::IsMember({"low", "moderate", "high"}))
+        ->capture_default_str();
+    app.add_option("--technique", options.techniqueId, "id of --list")->capture_default_str();
+    app.add_option("--set", options.settings, "NAME=NUMBER, a setting of --describe");
+    app.add_option("--radius", options.radius, "metres")->capture_default_str();
+    app.add_option("--width", options.width)->check(CLI::Range(1, 16384))->capture_default_str();
+    app.add_option("--height", options.height)->check(CLI::Range(1, 16384))->capture_default_str();
+    app.add_option("--antialiasing", options.antialiasing, "jittered frames averaged")
+        ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    app.add_option("--seed", options.seed)->capture_default_str();
+    app.add_option("--protocol", options.protocol, "take everything from a protocol's condition");
+    app.add_option("--condition", options.condition, "its id")->needs("--protocol");
+    app.add_option("--member", options.member, "0 for a, 1 for b")->check(CLI::Range(0, 1));
+    app.add_option("--out", options.out, "PNG; its visibility goes beside it")
+        ->capture_default_str();
+    app.add_flag("--layers", options.layers, "write linear EXR of image, visibility and G-buffer too");
+    CLI11_PARSE(app, argc, argv);
+    if (options.devices)
+        return printDevices();
+    if (options.list)
+        return printTechniques();
+    if (!options.describe.empty())
+        return printTechnique(options.describe);
+    return render(options);
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return obscura::runProgram("obscura-render", run, argc, argv); }

@@ -1,0 +1,266 @@
+#include "renderer/render.h"
+
+#include "protocols/files.h"
+#include "protocols/version.h"
+#include "renderer/ao.h"
+#include "renderer/builtin.h"
+#include "renderer/composite.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+Scene loadSceneOf(const View& view, const Folders& folders) {
+    return view.file.empty() ? builtinScene(view.builtin) : loadScene(folders.scenes / view.file);
+}
+
+Settings settingsOf(const Recipe& recipe) {
+    Settings settings(technique(recipe.technique));
+    for (const auto& [name, value] : recipe.settings)
+        settings.set(name, value);
+    return settings;
+}
+
+// Sub-pixel offsets of `count` frames: the R2 sequence (Roberts 2018) fills the pixel evenly for
+// any count.
+glm::vec2 jitterOf(int frame, int count) {
+    if (count == 1)
+        return {0, 0};
+    const auto coordinate = [&](double step) {
+        const double value = 0.5 + frame * step;
+        return static_cast<float>(value - std::floor(value) - 0.5);
+    };
+    return {coordinate(0.7548776662466927), coordinate(0.5698402909980532)};
+}
+
+// The last image row first, as OpenGL has it, to top row first; keeps `keep` of `have` channels.
+Image flipped(const std::vector<float>& values, int width, int height, int have, int first,
+              int keep) {
+    Image image{width, height, keep, {}};
+    image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                        static_cast<std::size_t>(keep));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t from =
+                static_cast<std::size_t>((height - 1 - y) * width + x) * static_cast<std::size_t>(have);
+            for (int c = 0; c < keep; ++c)
+                image.at(x, y, c) = values[from + static_cast<std::size_t>(first + c)];
+        }
+    return image;
+}
+
+Image8 displayed(const Image& linear) {
+    Image8 image{linear.width, linear.height, linear.channels, {}};
+    image.pixels.reserve(linear.pixels.size());
+    for (const float value : linear.pixels)
+        image.pixels.push_back(static_cast<std::uint8_t>(srgbFromLinear(value) * 255 + 0.5f));
+    return image;
+}
+
+void hashTargets(Sha256& hash, const gl::Target& target, int count) {
+    for (int i = 0; i < count; ++i)
+        hash.add(gl::readBytes(target.colour(i), target.width(), target.height(), target.format(i)));
+}
+
+Image layerOf(const gl::Target& target, int index) {
+    const int have = gl::channelsOf(target.format(index));
+    return flipped(gl::readFloats(target.colour(index), target.width(), target.height(),
+                                  target.format(index)),
+                   target.width(), target.height(), have, 0, have);
+}
+
+double meanOcclusion(const Image& visibility, const std::vector<float>& depth, float empty) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (int y = 0; y < visibility.height; ++y)
+        for (int x = 0; x < visibility.width; ++x) {
+            const auto at = static_cast<std::size_t>((visibility.height - 1 - y) * visibility.width + x);
+            if (depth[at] < empty) {
+                sum += 1 - static_cast<double>(visibility.at(x, y, 0));
+                ++count;
+            }
+        }
+    return count ? sum / static_cast<double>(count) : 0;
+}
+
+// Adds the time since the last mark to a stage, once the GPU has done all of it.
+class StageClock {
+  public:
+    void mark(double& stage) {
+        gl::finish();
+        const auto now = std::chrono::steady_clock::now();
+        stage += std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+    }
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+} // namespace
+
+std::string sceneSha256(const View& view, const Folders& folders) {
+    static std::map<std::string, std::string> known;
+    const std::string key =
+        view.file.empty() ? view.builtin : (folders.scenes / view.file).string();
+    std::string& hash = known[key];
+    if (hash.empty())
+        hash = view.file.empty() ? builtinScene(view.builtin).sha256
+                                 : sceneSha256(folders.scenes / view.file);
+    return hash;
+}
+
+std::string shaderSha256(const Settings& settings, const Level& level) {
+    Sha256 hash;
+    for (const char* name : {"depth_only.vert", "gbuffer.vert", "gbuffer.frag", "screen.vert"})
+        hash.add(shaderText(name).text());
+    for (const bool masked : {false, true})
+        hash.add(DepthPass::fragmentShader(masked).text());
+    hash.add(lightShader(level).text());
+    for (const Pass& pass : settings.technique().passes)
+        hash.add(passShader(settings.technique(), pass).text());
+    hash.add(compositeShader().text());
+    return hash.hex();
+}
+
+Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int member,
+                  const Folders& folders, const gl::Driver& driver) {
+    const View& view = protocol.view(condition.view);
+    const Level& level = protocol.level(condition.level);
+    const Settings settings = settingsOf(
+        protocol.technique(condition.pair[static_cast<std::size_t>(member)]), view.radius);
+    Recipe recipe;
+    recipe.width = protocol.width;
+    recipe.height = protocol.height;
+    recipe.antialiasing = protocol.antialiasing;
+    recipe.seed = protocol.seed;
+    recipe.view = view;
+    recipe.level = level;
+    try {
+        recipe.sceneSha256 = sceneSha256(view, folders);
+        if (!level.environment.empty())
+            recipe.environmentSha256 = sha256File(folders.protocol / level.environment);
+    } catch (const Error& error) { // of the scene's file; the protocol's line helps to find it
+        throw Error(error.place().file.empty() ? view.place : Place{}, error.what());
+    }
+    recipe.technique = std::string(settings.technique().id);
+    recipe.settings = settings.named();
+    recipe.shaderSha256 = shaderSha256(settings, level);
+    recipe.programVersion = std::string(version());
+    recipe.glVendor = driver.vendor;
+    recipe.glRenderer = driver.renderer;
+    recipe.glVersion = driver.version;
+    return recipe;
+}
+
+// What stays from one recipe to the next.
+struct RecipeRenderer::Stage {
+    std::string sceneSha256, lighting; // what is loaded; the latter as text
+    std::optional<GpuScene> scene;
+    std::optional<Lighting> light;
+    GBufferPass gbufferPass;
+};
+
+RecipeRenderer::RecipeRenderer(Folders folders)
+    : folders_(std::move(folders)), stage_(std::make_unique<Stage>()) {}
+RecipeRenderer::~RecipeRenderer() = default;
+
+const std::filesystem::path RecipeRenderer::environmentOf(const Level& level) const {
+    return folders_.protocol / level.environment;
+}
+
+void RecipeRenderer::prepare(const Recipe& recipe) {
+    const auto mustBe = [](const std::string& what, const std::string& found,
+                           const std::string& expected) {
+        if (found != expected)
+            throw Error(fmt::format("expected {} with SHA-256 {}, found {}: it has changed since the "
+                                    "recipe was made; generate the stimuli again",
+                                    what, expected, found));
+    };
+    if (stage_->sceneSha256 != recipe.sceneSha256) {
+        stage_->light.reset();
+        stage_->scene.reset();
+        const Scene scene = loadSceneOf(recipe.view, folders_);
+        mustBe(fmt::format("scene \"{}\"", recipe.view.name), scene.sha256, recipe.sceneSha256);
+        warnings_ = scene.warnings;
+        stage_->scene.emplace(scene);
+        stage_->sceneSha256 = recipe.sceneSha256;
+        stage_->lighting.clear();
+    }
+    // The recipe's JSON is a canonical text of everything lighting depends on, and of more.
+    Recipe lightingOnly;
+    lightingOnly.level = recipe.level;
+    lightingOnly.environmentSha256 = recipe.environmentSha256;
+    if (const std::string key = lightingOnly.json(); stage_->lighting != key) {
+        if (!recipe.level.environment.empty())
+            mustBe("the environment image", sha256File(environmentOf(recipe.level)),
+                   recipe.environmentSha256);
+        stage_->light.reset();
+        stage_->light.emplace(recipe.level, *stage_->scene, environmentOf(recipe.level));
+        stage_->lighting = key;
+    }
+}
+
+Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
+    const Settings settings = settingsOf(recipe);
+    StageClock clock;
+    prepare(recipe);
+    const Lighting& lighting = *stage_->light;
+    const GBuffer gbuffer(recipe.width, recipe.height,
+                          settings.technique().normals || lighting.readsNormals());
+    const LightBuffers light(recipe.width, recipe.height, lighting.hasDirect());
+    const OcclusionPasses occlusion(settings, recipe.width, recipe.height);
+    Composite composite(recipe.view, recipe.level, recipe.width, recipe.height, layers);
+    clock.mark(times_.scene);
+
+    Rendering result;
+    Sha256 inputs;
+    std::vector<float> firstDepth;
+    float empty = 0;
+    for (int i = 0; i < recipe.antialiasing; ++i) {
+        const Frame frame =
+            makeFrame(recipe.view.camera, recipe.width, recipe.height, stage_->scene->bounds(),
+                      recipe.seed, jitterOf(i, recipe.antialiasing));
+        const gl::UniformBuffer block = frameBuffer(frame);
+        bindFrame(block);
+        stage_->gbufferPass.draw(*stage_->scene, frame, gbuffer);
+        clock.mark(times_.gbuffer);
+        lighting.draw(gbuffer, light);
+        clock.mark(times_.light);
+        hashTargets(inputs, gbuffer.target(), lighting.readsNormals() ? 3 : 2);
+        hashTargets(inputs, light.target(), light.target().count());
+        if (i == 0) {
+            firstDepth = gl::readFloats(gbuffer.depth(), recipe.width, recipe.height,
+                                        gl::Format::r32f);
+            empty = frame.depth.y;
+            for (int c = 0; layers && c < gbuffer.target().count(); ++c)
+                result.layers[std::array{"albedo", "depth", "normal"}[static_cast<std::size_t>(c)]] =
+                    layerOf(gbuffer.target(), c);
+        }
+        clock.mark(times_.hash);
+        const gl::Texture& visibility = occlusion.visibility(gbuffer);
+        clock.mark(times_.occlusion);
+        composite.draw(light, visibility);
+        clock.mark(times_.composite);
+    }
+
+    const std::vector<float> mean = composite.mean();
+    result.image = displayed(flipped(mean, recipe.width, recipe.height, 4, 0, 3));
+    result.visibility = flipped(mean, recipe.width, recipe.height, 4, 3, 1);
+    if (layers)
+        result.layers["linear"] =
+            flipped(composite.meanLinear(), recipe.width, recipe.height, 4, 0, 3);
+    result.inputsSha256 = inputs.hex();
+    result.meanOcclusion = meanOcclusion(result.visibility, firstDepth, empty);
+    gl::throwMessages();
+    clock.mark(times_.composite);
+    return result;
+}
+
+} // namespace obscura

@@ -1,0 +1,72 @@
+#pragma once
+
+#include "protocols/manifest.h"
+#include "renderer/gl/context.h"
+#include "renderer/image.h"
+#include "renderer/settings.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace obscura {
+
+// Where the files that a study names are.
+struct Folders {
+    std::filesystem::path scenes;   // glTF scenes
+    std::filesystem::path protocol; // environment images
+};
+
+// The recipe of one image: settings complete, and the hashes of scene, environment and shader
+// texts looked up. `driver` is the one that will render it.
+Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int member,
+                  const Folders& folders, const gl::Driver& driver);
+
+// Hash of a view's scene (cached by path for the process: a study names few) and of the text of
+// every shader that makes an image with these settings.
+std::string sceneSha256(const View& view, const Folders& folders);
+std::string shaderSha256(const Settings& settings, const Level& level);
+
+struct Rendering {
+    Image8 image;     // sRGB, as shown
+    Image visibility; // 1 channel
+    std::map<std::string, Image> layers; // on request: "linear" (before the display curve), "albedo",
+                                         // "normal", "depth" (of the first jittered frame)
+    std::string inputsSha256; // of what composite and lighting read, for every jittered frame:
+                              // albedo, depth, ambient and direct light, and normals where the
+                              // lighting reads them
+    double meanOcclusion = 0; // over the pixels that show a surface in the first frame
+};
+
+// Wall seconds, each stage ended by waiting for the GPU.
+struct StageTimes {
+    double scene = 0, gbuffer = 0, light = 0, occlusion = 0, composite = 0, hash = 0;
+};
+
+// Carries out recipes one at a time in the current context. Keeps the last scene and lighting, so
+// that recipes sorted by scene and level load each once.
+class RecipeRenderer {
+  public:
+    explicit RecipeRenderer(Folders folders);
+    ~RecipeRenderer();
+
+    // Scene and environment must have the recipe's hashes; an Error says which has changed.
+    Rendering render(const Recipe& recipe, bool layers = false);
+
+    const StageTimes& times() const { return times_; }
+    const std::vector<std::string>& sceneWarnings() const { return warnings_; }
+
+  private:
+    struct Stage;
+
+    void prepare(const Recipe& recipe);
+    const std::filesystem::path environmentOf(const Level& level) const;
+
+    Folders folders_;
+    std::unique_ptr<Stage> stage_;
+    StageTimes times_;
+    std::vector<std::string> warnings_;
+};
+
+} // namespace obscura

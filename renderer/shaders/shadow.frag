@@ -1,7 +1,0 @@
-#include "material.glsl"
-
-in vec2 materialUv;
-
-void main() {
-    cutOut(materialUv);
-}

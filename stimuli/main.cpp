@@ -1,0 +1,98 @@
+#include "protocols/progress.h"
+#include "stimuli/generate.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <optional>
+
+namespace {
+
+using namespace obscura;
+namespace fs = std::filesystem;
+
+// Peak memory of this process, MiB, as Linux counts it; 0 where there is no /proc.
+double peakMemory() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:"))
+            return std::strtod(line.c_str() + 6, nullptr) / 1024;
+    return 0;
+}
+
+Announce announcing(std::optional<Progress>& progress, const std::string& label) {
+    return [&progress, label](int done, int total, const std::string& file) {
+        if (!progress)
+            progress.emplace(label, total);
+        progress->update(done, file);
+    };
+}
+
+void report(const GenerateResult& result, const fs::path& folder) {
+    const StageTimes& t = result.times;
+    fmt::print("{} images rendered, {} kept, in {}\n", result.rendered, result.kept,
+               folder.string());
+    if (result.rendered > 0)
+        fmt::print("seconds: scenes and shadow maps {:.1f}, G-buffer {:.1f}, light {:.1f}, occlusion "
+                   "{:.1f}, composite {:.1f}, proof of matching {:.1f}, writing {:.1f}; peak memory "
+                   "{:.0f} MiB\n",
+                   t.scene, t.gbuffer, t.light, t.occlusion, t.composite, t.hash, result.writing,
+                   peakMemory());
+    for (const PairRecord& pair : result.manifest.pairs)
+        fmt::print("  {:<24} mean occlusion {:<16} {:.4f}   {:<16} {:.4f}   matched {:.12}\n",
+                   pair.condition, pair.a.name, pair.a.meanOcclusion, pair.b.name,
+                   pair.b.meanOcclusion, pair.a.inputsSha256);
+}
+
+int run(int argc, char** argv) {
+    fs::path protocolPath, out;
+    std::string device;
+    const char* environment = std::getenv("OBSCURA_SCENES");
+    Folders folders{environment ? environment : ".", {}};
+    bool layers = false, check = false, verifyOnly = false;
+    CLI::App app("obscura-stimuli: makes the image pairs of a protocol");
+    app.add_option("protocol", protocolPath, "study, TOML")->required();
+    app.add_option("--out", out, "stimulus folder; default stimuli-NAME");
+    app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
+    app.add_option("--device", device, "render with this device of obscura-render --devices");
+    app.add_flag("--layers", layers,
+                 "write linear EXR of image, visibility and G-buffer as well");
+    app.add_flag("--check", check, "check the protocol, render nothing");
+    app.add_flag("--verify", verifyOnly,
+                 "render every image of the folder again and compare the bytes, write nothing");
+    CLI11_PARSE(app, argc, argv);
+
+    const Protocol protocol = readProtocol(protocolPath);
+    folders.protocol = protocolPath.parent_path();
+    if (out.empty())
+        out = "stimuli-" + protocol.name;
+    const gl::Context context(device);
+    std::optional<Progress> progress;
+    if (check) {
+        for (const Condition& condition : protocol.conditions)
+            for (int member : {0, 1})
+                makeRecipe(protocol, condition, member, folders, context.driver());
+        fmt::print("{}: {} conditions, all well\n", protocolPath.string(),
+                   protocol.conditions.size());
+    } else if (verifyOnly) {
+        const Manifest manifest = readManifest(out / "manifest.json");
+        verify(manifest, folders, context.driver(), announcing(progress, "verifying"));
+        progress.reset();
+        fmt::print("{}: all {} images repeat byte for byte\n", out.string(),
+                   manifest.pairs.size() * 2);
+    } else {
+        const GenerateResult result = generate(protocol, folders, out, layers, context.driver(),
+                                               announcing(progress, "rendering stimuli"));
+        if (progress)
+            progress->update(static_cast<double>(protocol.conditions.size()) * 2);
+        progress.reset();
+        report(result, out);
+    }
+    return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) { return obscura::runProgram("obscura-stimuli", run, argc, argv); }

@@ -1,0 +1,221 @@
+#include "analysis/frequencies.h"
+#include "protocols/csv.h"
+#include "protocols/files.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+namespace obscura {
+namespace {
+
+// The seven conditions of the thesis (Table 4). R 4.2.2 computed the figures: chisq.test,
+// binom.test, prop.test's score interval, qnorm; the shared golden/ has its script and 300 values.
+struct Golden {
+    int condition;
+    Votes votes;
+    double chiSquare, chiSquareP, exactP, low, high, g, h, w, jod;
+};
+void PrintTo(const Golden& golden, std::ostream* out) { *out << golden.condition; }
+
+const Golden goldens[] = {
+    {1, {18, 18}, 0, 1, 1, 0.344743254096, 0.655256745904, 0, 0, 0, 0},
+    {2,
+     {14, 22},
+     1.77777777778,
+     0.182422439452,
+     0.242984954035,
+     0.448644590966,
+     0.752151269346,
+     0.111111111111,
+     0.224093092301,
+     0.222222222222,
+     0.418414285733},
+    {3,
+     {11, 25},
+     5.44444444444,
+     0.0196306572573,
+     0.0288167196559,
+     0.531437271495,
+     0.819955484052,
+     0.194444444444,
+     0.399425239881,
+     0.388888888889,
+     0.753885524519},
+    {4,
+     {16, 20},
+     0.444444444444,
+     0.504985075094,
+     0.61771931703,
+     0.395810617557,
+     0.704587312599,
+     0.0555555555556,
+     0.111341014341,
+     0.111111111111,
+     0.20713479907},
+    {5,
+     {11, 25},
+     5.44444444444,
+     0.0196306572573,
+     0.0288167196559,
+     0.531437271495,
+     0.819955484052,
+     0.194444444444,
+     0.399425239881,
+     0.388888888889,
+     0.753885524519},
+    {6, {18, 18}, 0, 1, 1, 0.344743254096, 0.655256745904, 0, 0, 0, 0},
+    {7,
+     {21, 15},
+     1,
+     0.317310507863,
+     0.405032246141,
+     0.271405620514,
+     0.577997484251,
+     -0.0833333333333,
+     -0.16744807922,
+     0.166666666667,
+     -0.311981604149},
+};
+
+class Thesis : public testing::TestWithParam<Golden> {};
+
+TEST_P(Thesis, AgreesWithR) {
+    const Golden& golden = GetParam();
+    const auto found = frequencies(golden.votes);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->chiSquare, golden.chiSquare, 1e-9);
+    EXPECT_NEAR(found->chiSquareP, golden.chiSquareP, 1e-9);
+    EXPECT_NEAR(found->exactP, golden.exactP, 1e-9);
+    EXPECT_NEAR(found->wilson.low, golden.low, 1e-9);
+    EXPECT_NEAR(found->wilson.high, golden.high, 1e-9);
+    EXPECT_NEAR(found->g, golden.g, 1e-9);
+    EXPECT_NEAR(found->h, golden.h, 1e-9);
+    EXPECT_NEAR(found->w, golden.w, 1e-9);
+    ASSERT_TRUE(found->jod);
+    EXPECT_NEAR(*found->jod, golden.jod, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Frequencies, Thesis, testing::ValuesIn(goldens), [](const auto& golden) {
+    return fmt::format("condition{}", golden.param.condition);
+});
+
+// The same against the file that R wrote, where the project's shared folder is at hand.
+TEST(Frequencies, AgreeWithTheSharedGoldenFile) {
+    const std::filesystem::path file =
+        std::filesystem::path(OBSCURA_SOURCE) / "../shared/golden/golden_values.csv";
+    if (!std::filesystem::exists(file))
+        GTEST_SKIP() << "NOT COMPARED with " << file << ": no such file here";
+    std::map<std::string, CsvRecord> rows;
+    for (const CsvRecord& record : splitCsv(readFile(file)))
+        rows[record.cells.at(0)] = record;
+    const std::map<std::string, double (*)(const Frequencies&)> keys = {
+        {"chisq", [](const Frequencies& f) { return f.chiSquare; }},
+        {"chisq_p", [](const Frequencies& f) { return f.chiSquareP; }},
+        {"exact_p", [](const Frequencies& f) { return f.exactP; }},
+        {"wilson_lo", [](const Frequencies& f) { return f.wilson.low; }},
+        {"wilson_hi", [](const Frequencies& f) { return f.wilson.high; }},
+        {"cohen_g", [](const Frequencies& f) { return f.g; }},
+        {"cohen_h", [](const Frequencies& f) { return f.h; }},
+        {"cohen_w", [](const Frequencies& f) { return f.w; }},
+        {"jod", [](const Frequencies& f) { return f.jod.value(); }}};
+    for (const auto& [key, value] : keys)
+        for (const Golden& golden : goldens) {
+            const auto& cells = rows.at(fmt::format("thesis.{}[{}]", key, golden.condition)).cells;
+            EXPECT_NEAR(value(*frequencies(golden.votes)), std::stod(cells.at(1)),
+                        std::stod(cells.at(2)))
+                << key << golden.condition;
+        }
+}
+
+TEST(Frequencies, AreAbsentWithoutVotes) { EXPECT_FALSE(frequencies({0, 0})); }
+
+TEST(Frequencies, HaveNoFiniteJodWhenVotesAreUnanimous) {
+    EXPECT_FALSE(frequencies({0, 5})->jod);
+    EXPECT_FALSE(frequencies({5, 0})->jod);
+    EXPECT_NEAR(frequencies({0, 5})->exactP, 2.0 / 32, 1e-15);
+}
+
+TEST(Frequencies, AreFiniteAndInRangeForAllSmallCounts) {
+    for (int a = 0; a <= 40; ++a)
+        for (int b = a == 0 ? 1 : 0; b <= 40; ++b) {
+            const Frequencies f = *frequencies({a, b});
+            EXPECT_TRUE(f.chiSquareP >= 0 && f.chiSquareP <= 1) << a << ' ' << b;
+            EXPECT_TRUE(f.exactP > 0 && f.exactP <= 1) << a << ' ' << b;
+            EXPECT_TRUE(0 <= f.wilson.low && f.wilson.low <= f.share) << a << ' ' << b;
+            EXPECT_TRUE(f.share <= f.wilson.high && f.wilson.high <= 1) << a << ' ' << b;
+            EXPECT_TRUE(std::isfinite(f.g) && std::isfinite(f.h) && std::isfinite(f.w));
+            EXPECT_TRUE(!f.jod || std::isfinite(*f.jod));
+        }
+}
+
+TEST(Frequencies, TurnOverWithTheVotes) {
+    const Frequencies f = *frequencies({11, 25}), turned = *frequencies({25, 11});
+    EXPECT_DOUBLE_EQ(f.exactP, turned.exactP);
+    EXPECT_DOUBLE_EQ(f.chiSquare, turned.chiSquare);
+    EXPECT_NEAR(f.wilson.low, 1 - turned.wilson.high, 1e-15);
+    EXPECT_NEAR(*f.jod, -*turned.jod, 1e-14);
+}
+
+double probabilityOfVotes(int b, int n, double share) {
+    return std::exp(std::lgamma(n + 1) - std::lgamma(b + 1) - std::lgamma(n - b + 1) +
+                    b * std::log(share) + (n - b) * std::log(1 - share));
+}
+
+// How often a test at .05 rejects although everybody guesses.
+template <typename P>
+double size(int n, P p) {
+    double total = 0;
+    for (int b = 0; b <= n; ++b)
+        if (p(Votes{n - b, b}) < 0.05)
+            total += probabilityOfVotes(b, n, 0.5);
+    return total;
+}
+
+TEST(Frequencies, TestsHaveTheirKnownSizesAtN36) {
+    EXPECT_NEAR(size(36, exactP), 0.0288, 5e-5);
+    EXPECT_NEAR(size(36, [](Votes votes) { return chiSquareP(chiSquare(votes)); }), 0.0652, 5e-5);
+}
+
+TEST(Frequencies, ExactTestNeverRejectsTooOften) {
+    for (int n = 1; n <= 120; ++n)
+        EXPECT_LE(size(n, exactP), 0.05) << n;
+}
+
+// Wilson's limits are the shares p at which the score statistic equals the normal quantile.
+TEST(Wilson, LimitsSolveTheScoreEquation) {
+    constexpr double z = 1.959963984540054; // 97.5 % of the standard normal distribution
+    for (int n = 1; n <= 60; ++n)
+        for (int k = 0; k <= n; ++k) {
+            const double share = static_cast<double>(k) / n;
+            const auto [low, high] = wilson(k, n);
+            for (const double p : {low, high})
+                EXPECT_NEAR(std::pow(share - p, 2), z * z * p * (1 - p) / n, 1e-14)
+                    << k << '/' << n;
+        }
+}
+
+TEST(Wilson, ReachesExactlyTheEdges) {
+    EXPECT_EQ(wilson(0, 36).low, 0);
+    EXPECT_NEAR(wilson(0, 36).high, 0.096419, 5e-7);
+    EXPECT_NEAR(wilson(36, 36).low, 0.903581, 5e-7);
+    EXPECT_EQ(wilson(36, 36).high, 1);
+}
+
+TEST(Wilson, CoversTheTrueShareAboutAsOftenAsItSays) {
+    constexpr int n = 36, steps = 999;
+    double mean = 0;
+    for (int step = 1; step <= steps; ++step) {
+        const double share = step / (steps + 1.0);
+        for (int k = 0; k <= n; ++k)
+            if (const auto [low, high] = wilson(k, n); low <= share && share <= high)
+                mean += probabilityOfVotes(k, n, share) / steps;
+    }
+    EXPECT_NEAR(mean, 0.95, 0.005);
+}
+
+} // namespace
+} // namespace obscura

@@ -1,0 +1,238 @@
+#include "analysis/chart.h"
+#include "analysis/gnuplot.h"
+#include "analysis/html.h"
+#include "analysis/report.h"
+#include "analysis/table.h"
+#include "protocols/csv.h"
+#include "tests/analysis/sample_study.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <regex>
+#include <string_view>
+
+namespace obscura {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+Findings thesis() {
+    return {"Thesis",
+            readCounts(std::filesystem::path(OBSCURA_SOURCE) / "analysis/thesis_table4.csv"),
+            std::nullopt, std::nullopt};
+}
+
+Findings studied(const test::Folder& folder, bool simulated) {
+    const auto data = test::writeStudy(folder / "study", 28, simulated);
+    const Answers answers = collectAnswers(std::vector{data}, {});
+    Findings findings;
+    findings.stimuli = readManifest(test::writeStimuli(folder / "stimuli") / "manifest.json");
+    findings.title = findings.stimuli->title;
+    findings.tallies = tallyVotes(answers.counted, &*findings.stimuli);
+    findings.conduct = conductOf(answers);
+    return findings;
+}
+
+std::string joined(const std::vector<std::string>& sentences) {
+    return fmt::format("{}", fmt::join(sentences, "\n"));
+}
+
+// "" when every element is closed in order and every "&" begins an entity; else the first fault.
+std::string faultOfXml(const std::string& text) {
+    static const std::regex token(
+        R"(<!DOCTYPE[^>]*>|<!--[\s\S]*?-->|<(/?)([A-Za-z][\w:-]*)((?:\s+[\w:-]+\s*=\s*(?:"[^"<]*"|'[^'<]*'))*)\s*(/?)>|&#?\w+;|[<&])",
+        std::regex::optimize);
+    std::vector<std::string> open;
+    for (std::sregex_iterator it(text.begin(), text.end(), token), end; it != end; ++it) {
+        const std::smatch& match = *it;
+        if (match.str() == "<" || match.str() == "&")
+            return text.substr(static_cast<std::size_t>(match.position()), 60);
+        if (!match[2].matched || match[4].length() > 0)
+            continue;
+        if (match[1].length() == 0)
+            open.push_back(match[2]);
+        else if (open.empty() || open.back() != match[2])
+            return "</" + match[2].str() + ">";
+        else
+            open.pop_back();
+    }
+    return open.empty() ? "" : "<" + open.back() + ">";
+}
+
+TEST(Summary, SaysNoMoreThanTheThesisCountsDo) {
+    EXPECT_THAT(
+        summaryOf(thesis()),
+        ElementsAre("The published counts hold 252 votes on 7 conditions.",
+                    "2 of 7 conditions differ from an even split at .05 (exact binomial test, "
+                    "uncorrected): 25 of 36 chose Blizzard24 over Crytek24 (sponza, moderate); 25 "
+                    "of 36 chose Blizzard24 over None (sponza, high).",
+                    "With 7 tests at .05, guessing alone gives up to 0.35 such differences on "
+                    "average, so one small p among them is weak evidence.",
+                    "For the other 5 the data do not decide: a large p, even 1, does not show that "
+                    "two images look equally real, and the intervals leave room for shares from 27 "
+                    "to 75 %."));
+}
+
+TEST(Summary, SaysWhereOnlyTheApproximationRejects) {
+    Findings findings = thesis();
+    findings.tallies.resize(1);
+    findings.tallies[0].votes = {24, 12}; // p .0455 by chi-square, .065 exactly
+    EXPECT_THAT(joined(summaryOf(findings)),
+                HasSubstr("0 of 1 conditions differ from an even split at .05 (exact binomial "
+                          "test, uncorrected).\nBy chi-square alone, an approximation that is too "
+                          "lenient here, one would add: 24 of 36 chose Crytek24 over Blizzard24"));
+}
+
+TEST(Summary, WarnsOfRepeatedVotesAndNamesEmptyConditions) {
+    const test::Folder folder;
+    Findings findings = studied(folder, false);
+    EXPECT_THAT(joined(summaryOf(findings)), HasSubstr("No votes yet: c3."));
+    EXPECT_THAT(joined(summaryOf(findings)), Not(HasSubstr("Caution")));
+    findings.conduct->mostVotes = 2;
+    EXPECT_THAT(joined(summaryOf(findings)), HasSubstr("voted up to 2 times on one condition"));
+}
+
+TEST(Table, AlignsColumnsByCharactersNotBytes) {
+    EXPECT_EQ(alignedText({{{"χ²", true}, {"Scene"}}, {{"5.444", "höhle"}, {"–", "x"}}}),
+              "   χ²  Scene\n"
+              "─────  ─────\n"
+              "5.444  höhle\n"
+              "    –  x\n");
+}
+
+TEST(Table, ShowsAbsentFiguresAsADash) {
+    Tally none, unanimous;
+    unanimous.votes = {0, 9};
+    const Table table = resultTable({none, unanimous});
+    EXPECT_THAT(table.rows[0],
+                ElementsAre("", "", "", "", "", "0 : 0", "–", "–", "–", "–", "–", "–"));
+    EXPECT_EQ(table.rows[1][10], "+0.500");
+    EXPECT_EQ(table.rows[1][11], "–");
+}
+
+TEST(Table, HasThesisTable4InItsCsv) {
+    const auto records = splitCsv(resultCsv(thesis()));
+    ASSERT_EQ(records.size(), 8u);
+    EXPECT_EQ(fmt::format("{}", fmt::join(records[0].cells, ",")),
+              "source,condition_id,level,scene,hypothesis,technique_a,technique_b,votes_a,votes_b,"
+              "share_b,wilson_low,wilson_high,chi_square,p_chi_square,p_exact,cohen_g,cohen_h,"
+              "cohen_w,jod");
+    EXPECT_EQ(records[3].cells[0], "published counts");
+    EXPECT_NEAR(std::stod(records[3].cells[12]), 49.0 / 9, 1e-12);
+}
+
+TEST(Table, LeavesCsvCellsEmptyWhereThereIsNoFigure) {
+    Findings findings = thesis();
+    findings.tallies.resize(1);
+    findings.tallies[0].votes = {};
+    EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0,,,,,,,,,,\n"));
+}
+
+TEST(Chart, IsSvgWithEveryLabelAndCount) {
+    const std::string svg = chartSvg(thesis());
+    EXPECT_EQ(svg.rfind("<svg", 0), 0u);
+    EXPECT_EQ(faultOfXml(svg), "");
+    for (const char* text :
+         {"moderate", "characters: Blizzard8 / RayMarching30", "16 : 20", "50 %"})
+        EXPECT_THAT(svg, HasSubstr(text));
+}
+
+TEST(Chart, DrawsNamesAsTheyAreWritten) {
+    Findings findings = thesis();
+    findings.tallies.resize(1);
+    findings.tallies[0].scene = "it's \"a_b^c\" {d} \\e @f &g ~h <i> é `date`";
+    findings.tallies[0].level = "low_{er}\nlevel";
+    const std::string svg = chartSvg(findings);
+    EXPECT_THAT(svg, HasSubstr("it's \"a_b^c\" {d} \\e @f &amp;g ~h &lt;i> é `date`"));
+    EXPECT_THAT(svg, HasSubstr("low_{er} level"));
+    EXPECT_EQ(faultOfXml(svg), "");
+}
+
+TEST(Chart, IsDrawnWithoutAnyVotes) {
+    Findings findings = thesis();
+    for (Tally& tally : findings.tallies)
+        tally.votes = {};
+    EXPECT_THAT(chartSvg(findings), HasSubstr("0 : 0"));
+}
+
+TEST(Gnuplot, ReportsAFaultInItsScript) {
+    EXPECT_THAT(test::errorOf([] { gnuplotSvg("set terminal svg\nplot sin(\n", "x"); }),
+                testing::StartsWith("gnuplot failed (status 1): "));
+}
+
+TEST(Html, EscapesAndEncodes) {
+    EXPECT_EQ(escaped("<a href=\"x\">&"), "&lt;a href=&quot;x&quot;&gt;&amp;");
+    EXPECT_EQ(dataAddress("text/plain", ""), "data:text/plain;base64,");
+    EXPECT_EQ(dataAddress("text/plain", "a"), "data:text/plain;base64,YQ==");
+    EXPECT_EQ(dataAddress("text/plain", "abc"), "data:text/plain;base64,YWJj");
+}
+
+class ReportPage : public testing::Test {
+  protected:
+    test::Folder folder_;
+};
+
+TEST_F(ReportPage, IsWellFormed) {
+    EXPECT_EQ(faultOfXml("<a><b/></a>"), "");
+    EXPECT_EQ(faultOfXml("<a><b></a>"), "</a>");
+    EXPECT_EQ(faultOfXml("<a>x & y</a>"), "& y</a>");
+    EXPECT_EQ(faultOfXml(reportHtml(thesis())), "");
+    EXPECT_EQ(faultOfXml(reportHtml(studied(folder_, true))), "");
+}
+
+TEST_F(ReportPage, NeedsNothingFromElsewhere) {
+    const std::string page = reportHtml(studied(folder_, true));
+    EXPECT_THAT(page, HasSubstr("Content-Security-Policy\" content=\"default-src 'none'"));
+    // The names of SVG's namespaces are no references: nothing loads them.
+    const std::string rest = std::regex_replace(page, std::regex(R"(xmlns(:xlink)?="[^"]*")"), "");
+    for (const char* reference : {"http:", "https:", "@import", "<link", "<script", "<iframe"})
+        EXPECT_THAT(rest, Not(HasSubstr(reference)));
+    const std::regex address(R"((src|href)=["'](?!data:|#))");
+    EXPECT_FALSE(std::regex_search(rest, address));
+}
+
+TEST_F(ReportPage, StampsSimulatedDataEverywhere) {
+    const Findings findings = studied(folder_, true);
+    const std::string page = reportHtml(findings);
+    EXPECT_THAT(page, HasSubstr("<title>[SIMULATED] A sample &amp; its &lt;title&gt;</title>"));
+    EXPECT_THAT(page, HasSubstr("<p class=\"stamp\">SIMULATED DATA: 56 of 56 votes were cast by a "
+                                "program. They say nothing about people.</p>"));
+    EXPECT_THAT(chartSvg(findings), HasSubstr("SIMULATED DATA"));
+    EXPECT_THAT(resultCsv(findings), HasSubstr("\nSIMULATED,c2,"));
+}
+
+TEST_F(ReportPage, DoesNotStampPeoplesData) {
+    const Findings findings = studied(folder_, false);
+    EXPECT_THAT(reportHtml(findings), Not(HasSubstr("SIMULATED")));
+    EXPECT_THAT(resultCsv(findings), HasSubstr("\nparticipants,c2,"));
+}
+
+TEST_F(ReportPage, StampsPartlySimulatedData) {
+    Findings findings = studied(folder_, false);
+    findings.conduct->simulated = 3;
+    EXPECT_THAT(reportHtml(findings), HasSubstr("SIMULATED DATA: 3 of 56 votes"));
+    EXPECT_THAT(resultCsv(findings), HasSubstr("\npartly SIMULATED,c2,"));
+}
+
+TEST_F(ReportPage, HoldsTheContactSheetAndRefusesAnotherFile) {
+    const Findings findings = studied(folder_, false);
+    EXPECT_THAT(reportHtml(findings), HasSubstr(dataAddress("image/png", "\x89PNG, or so we say")));
+    writeFile(folder_ / "stimuli/contact_sheet.png", "another");
+    EXPECT_THAT(test::errorOf([&] { reportHtml(findings); }),
+                HasSubstr("contact_sheet.png: not the contact sheet that the stimuli's manifest "
+                          "describes; run obscura-stimuli again"));
+}
+
+TEST_F(ReportPage, ListsRowsThatCouldNotBeRead) {
+    Findings findings = studied(folder_, false);
+    findings.conduct->bad = {{{"a.csv", 3, 7, "slot_id"}, "expected \"1\""}};
+    EXPECT_THAT(reportHtml(findings),
+                HasSubstr("<li>a.csv:3:7: slot_id: expected &quot;1&quot;</li>"));
+}
+
+} // namespace
+} // namespace obscura

@@ -1,0 +1,110 @@
+#pragma once
+
+#include "protocols/files.h"
+#include "protocols/manifest.h"
+#include "tests/protocols/sample_response.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace obscura::test {
+
+// A folder of the running test's own, gone after it.
+class Folder {
+  public:
+    Folder() {
+        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        path_ = std::filesystem::temp_directory_path() /
+                fmt::format("obscura-{}-{}-{}", test->test_suite_name(), test->name(), ::getpid());
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+inline std::filesystem::path writeRows(const std::filesystem::path& file,
+                                       const std::vector<Response>& rows) {
+    std::string content = responseHeader();
+    for (const Response& row : rows)
+        content += responseLine(row);
+    writeFile(file, content);
+    return file;
+}
+
+// As the presenter leaves it: `participants` in two conditions each, one file per person. In "c1"
+// every third chooses a, in "c2" nobody does.
+inline std::filesystem::path writeStudy(const std::filesystem::path& folder, int participants,
+                                        bool simulated = false) {
+    for (int number = 1; number <= participants; ++number) {
+        Response first = sampleResponse(number, "c1", number % 3 != 0);
+        Response second = sampleResponse(number, "c2", true);
+        second.level = "high";
+        second.trialIndex = 2;
+        first.simulated = second.simulated = simulated;
+        writeRows(folder / "data" /
+                      fmt::format("study-sample_subject-P{:02}_session-1_data.csv", number),
+                  {first, second});
+    }
+    return folder;
+}
+
+// The stimuli of that study, "c2" first, and of a condition "c3" that nobody has seen.
+inline std::filesystem::path writeStimuli(const std::filesystem::path& folder) {
+    Manifest manifest;
+    manifest.study = "sample";
+    manifest.title = "A sample & its <title>";
+    manifest.protocolSha256 = std::string(64, '0');
+    manifest.commit = "0123456789ab";
+    manifest.width = 64;
+    manifest.height = 36;
+    for (const auto& [condition, level] :
+         {std::pair("c2", "high"), std::pair("c1", "moderate"), std::pair("c3", "moderate")}) {
+        PairRecord pair;
+        pair.condition = condition;
+        pair.level = level;
+        pair.view = "atrium";
+        pair.hypothesis = "H1";
+        pair.radius = 0.5;
+        pair.a.name = "none";
+        pair.b.name = "blizzard24";
+        pair.b.meanOcclusion = 0.125;
+        pair.a.image = {"a.png", std::string(64, 'a')};
+        pair.b.image = {"b.png", std::string(64, 'b')};
+        for (Recipe* recipe : {&pair.a.recipe, &pair.b.recipe}) {
+            recipe->programVersion = "0.1.0";
+            recipe->glRenderer = "llvmpipe";
+        }
+        manifest.pairs.push_back(pair);
+    }
+    const std::string picture = "\x89PNG, or so we say";
+    writeFile(folder / "contact_sheet.png", picture);
+    manifest.contactSheet = {"contact_sheet.png", sha256(picture)};
+    writeManifest(folder / "manifest.json", manifest);
+    return folder;
+}
+
+// What `run` throws.
+template <typename Run>
+std::string errorOf(Run run) {
+    try {
+        run();
+    } catch (const Error& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "nothing was thrown";
+    return {};
+}
+
+} // namespace obscura::test

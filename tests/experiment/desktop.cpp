@@ -1,0 +1,124 @@
+#include "tests/experiment/desktop.h"
+
+#include "protocols/error.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <X11/extensions/XTest.h>
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace obscura::test {
+
+struct Desktop::Connection {
+    explicit Connection(const std::string& name) : display(XOpenDisplay(name.c_str())) {}
+    ~Connection() {
+        if (display)
+            XCloseDisplay(display);
+    }
+    Display* display;
+};
+
+Desktop::Desktop(int width, int height) : width_(width), height_(height) {
+    start(width, height);
+    connection_ = std::make_unique<Connection>(name_);
+    if (!connection_->display)
+        throw Error("Xvfb runs, but refuses connections on " + name_);
+}
+
+Desktop::~Desktop() {
+    connection_.reset();
+    if (server_ > 0) {
+        ::kill(server_, SIGTERM);
+        ::waitpid(server_, nullptr, 0);
+    }
+}
+
+// The server picks a free number and writes it, and a line feed, once it is ready.
+void Desktop::start(int width, int height) {
+    int channel[2];
+    if (::pipe(channel) != 0)
+        throw Error("no pipe");
+    const std::string screen = fmt::format("{}x{}x24", width, height);
+    const std::string descriptor = fmt::format("{}", channel[1]);
+    server_ = ::fork();
+    if (server_ == 0) {
+        ::close(channel[0]);
+        const int silence = ::open("/dev/null", O_WRONLY);
+        ::dup2(silence, STDERR_FILENO);
+        ::execlp("Xvfb", "Xvfb", "-displayfd", descriptor.c_str(), "-screen", "0", screen.c_str(),
+                 "-nolisten", "tcp", "-noreset", nullptr);
+        ::_exit(127);
+    }
+    ::close(channel[1]);
+    std::string number;
+    for (char c; ::read(channel[0], &c, 1) == 1 && c != '\n';)
+        number += c;
+    ::close(channel[0]);
+    if (number.empty())
+        throw Error("Xvfb does not start; the presenter's tests need it: apt install xvfb");
+    name_ = ":" + number;
+}
+
+void Desktop::press(unsigned long keySymbol) {
+    XTestFakeKeyEvent(connection_->display, XKeysymToKeycode(connection_->display, keySymbol), True,
+                      CurrentTime);
+    XSync(connection_->display, False);
+}
+
+void Desktop::release(unsigned long keySymbol) {
+    XTestFakeKeyEvent(connection_->display, XKeysymToKeycode(connection_->display, keySymbol), False,
+                      CurrentTime);
+    XSync(connection_->display, False);
+}
+
+void Desktop::tap(unsigned long keySymbol) {
+    press(keySymbol);
+    release(keySymbol);
+}
+
+void Desktop::type(const std::string& lettersAndDigits) {
+    for (const char c : lettersAndDigits)
+        tap(static_cast<unsigned long>(c));
+}
+
+void Desktop::click(int x, int y) {
+    XTestFakeMotionEvent(connection_->display, 0, x, y, CurrentTime);
+    XTestFakeButtonEvent(connection_->display, 1, True, CurrentTime);
+    XTestFakeButtonEvent(connection_->display, 1, False, CurrentTime);
+    XSync(connection_->display, False);
+}
+
+Image8 Desktop::look() const {
+    Display* display = connection_->display;
+    XImage* grab = XGetImage(display, DefaultRootWindow(display), 0, 0,
+                             static_cast<unsigned>(width_), static_cast<unsigned>(height_),
+                             AllPlanes, ZPixmap);
+    Image8 image{width_, height_, 3, {}};
+    for (int y = 0; y < height_; ++y)
+        for (int x = 0; x < width_; ++x)
+            for (const int shift : {16, 8, 0})
+                image.pixels.push_back(
+                    static_cast<std::uint8_t>(XGetPixel(grab, x, y) >> shift));
+    XDestroyImage(grab);
+    return image;
+}
+
+bool Desktop::awaits(const Image8& expected, double seconds) const {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    do {
+        if (look().pixels == expected.pixels)
+            return true;
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    } while (std::chrono::steady_clock::now() < end);
+    return false;
+}
+
+} // namespace obscura::test

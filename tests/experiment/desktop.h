@@ -1,0 +1,41 @@
+#pragma once
+
+#include "renderer/image.h"
+
+#include <memory>
+#include <string>
+
+#include <sys/types.h>
+
+namespace obscura::test {
+
+// A virtual screen of its own (Xvfb), with fingers (XTest) and eyes. Dies with this object.
+class Desktop {
+  public:
+    Desktop(int width, int height);
+    ~Desktop();
+    Desktop(const Desktop&) = delete;
+    Desktop& operator=(const Desktop&) = delete;
+
+    const std::string& name() const { return name_; } // ":7", for DISPLAY
+
+    void press(unsigned long keySymbol);
+    void release(unsigned long keySymbol);
+    void tap(unsigned long keySymbol);
+    void type(const std::string& lettersAndDigits);
+    void click(int x, int y);
+
+    Image8 look() const;                                      // the whole screen, RGB
+    bool awaits(const Image8& expected, double seconds) const; // until the screen shows just that
+
+  private:
+    struct Connection;
+    void start(int width, int height);
+
+    int width_, height_;
+    pid_t server_ = 0;
+    std::string name_;
+    std::unique_ptr<Connection> connection_;
+};
+
+} // namespace obscura::test

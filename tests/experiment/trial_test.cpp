@@ -1,0 +1,461 @@
+#include "experiment/trial.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura {
+namespace {
+
+using Next = TrialMachine::Next;
+using gl::Key;
+
+constexpr double frame = 1 / 60.0;
+
+// Plays the runner's part: a clock, a screen that shows what is asked for at the next refresh, and
+// fingers.
+class Bench {
+  public:
+    explicit Bench(double mask = 2, double minimumView = 0)
+        : machine(Trial{mask, 128, minimumView}, 60) {}
+
+    TrialMachine machine;
+    double now = 10;
+    int maskShown = 0;
+
+    void down(Key key) { machine.handle({Event::Kind::press, now, key}); }
+    void up(Key key) { machine.handle({Event::Kind::release, now, key}); }
+    void tap(Key key) { down(key), up(key); }
+    void click(int option) { machine.handle({Event::Kind::option, now, {}, option}); }
+    void loseFocus() { machine.handle({Event::Kind::focusLost, now}); }
+    void look(double seconds) { now += seconds; }
+
+    // One thing the machine asks for other than waiting; false when it waits or has ended.
+    bool step(double interval = frame) {
+        if (machine.next() == Next::journal) {
+            machine.journalled();
+            return true;
+        }
+        if (machine.next() != Next::present)
+            return false;
+        now += interval;
+        maskShown += machine.screen() == Screen::mask;
+        machine.shown(now);
+        return true;
+    }
+    void settle() {
+        while (step()) {}
+    }
+    void settleOn(Screen screen) {
+        while (machine.screen() != screen && step()) {}
+        while (machine.screen() == screen && machine.next() != Next::wait && screen != Screen::mask &&
+               step()) {}
+        ASSERT_EQ(machine.screen(), screen);
+    }
+
+    void toFirst() { settle(), tap(Key::space), settle(); }
+    void toMask() { toFirst(), look(3), tap(Key::space); }
+    void toSecond() { toMask(), settle(); }
+    void toQuestion() { toSecond(), look(2), tap(Key::space), settle(); }
+    const TrialRecord& record() const { return machine.record(); }
+};
+
+TEST(Trial, GoesThroughItsScreensInOrder) {
+    Bench bench;
+    EXPECT_EQ(bench.machine.next(), Next::present);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::start);
+    EXPECT_EQ(bench.machine.next(), Next::wait);
+    bench.tap(Key::space);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::mask);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    bench.tap(Key::space);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::question);
+    bench.tap(Key::two);
+    EXPECT_EQ(bench.machine.next(), Next::answered);
+    EXPECT_EQ(bench.record().chosen, 2);
+    EXPECT_FALSE(bench.record().interrupted);
+}
+
+TEST(Trial, JournalsBeforeImageOneAndOnlyThere) {
+    Bench bench;
+    bench.settle();
+    EXPECT_EQ(bench.machine.next(), Next::wait);
+    bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.next(), Next::journal);
+    EXPECT_EQ(bench.machine.next(), Next::journal) << "until it has been done";
+    bench.machine.journalled();
+    EXPECT_EQ(bench.machine.next(), Next::present);
+    bench.settle();
+    bench.tap(Key::escape), bench.settle(), bench.tap(Key::one);
+    EXPECT_EQ(bench.machine.next(), Next::present) << "image 1 again, journalled already";
+}
+
+TEST(Trial, RecordsTimes) {
+    Bench bench;
+    bench.settle();
+    bench.look(1);
+    bench.tap(Key::space);
+    bench.settle();
+    const double onset1 = bench.now;
+    bench.look(3);
+    bench.tap(Key::space);
+    bench.settle();
+    const double onset2 = bench.now;
+    bench.look(2);
+    bench.tap(Key::space);
+    bench.settle();
+    const double question = bench.now;
+    bench.look(0.7);
+    bench.tap(Key::one);
+
+    const TrialRecord& record = bench.record();
+    EXPECT_NEAR(record.onset1, onset1, 1e-9);
+    EXPECT_NEAR(record.view1, 3 + frame, 1e-9) << "until the mask replaced it";
+    EXPECT_NEAR(record.mask, 2, 1e-9);
+    EXPECT_NEAR(record.onset2, onset2, 1e-9);
+    EXPECT_NEAR(record.onset2, record.onset1 + record.view1 + record.mask, 1e-9);
+    EXPECT_NEAR(record.view2, 2 + frame, 1e-9);
+    EXPECT_NEAR(record.questionOnset, question, 1e-9);
+    EXPECT_NEAR(record.decision, 0.7, 1e-9);
+}
+
+TEST(Trial, MaskLastsExactlyItsRefreshes) {
+    for (const double mask : {0.1, 0.5, 2.0}) {
+        Bench bench(mask);
+        bench.toSecond();
+        const int planned = static_cast<int>(mask * 60 + 0.5);
+        EXPECT_EQ(bench.record().maskFramesPlanned, planned);
+        EXPECT_EQ(bench.record().maskFramesShown, planned);
+        EXPECT_EQ(bench.maskShown, planned);
+        EXPECT_EQ(bench.record().missedFrames, 0);
+        EXPECT_EQ(bench.record().maskIntervals.size(), static_cast<std::size_t>(planned));
+    }
+}
+
+TEST(Trial, AMissedRefreshIsCountedAndMadeUpFor) {
+    Bench bench(0.5);
+    bench.toMask();
+    for (int i = 0; i < 10; ++i)
+        bench.step();
+    bench.step(3 * frame); // two refreshes missed
+    bench.settle();
+    EXPECT_EQ(bench.record().missedFrames, 1) << "intervals, not refreshes";
+    EXPECT_EQ(bench.maskShown, 28);
+    EXPECT_EQ(bench.record().maskFramesShown, 30);
+    EXPECT_NEAR(bench.record().mask, 0.5, 1e-9);
+}
+
+TEST(Trial, AStallAtTheVeryEndShowsInTheCount) {
+    Bench bench(0.5);
+    bench.toMask();
+    while (bench.machine.screen() == Screen::mask)
+        bench.step();
+    bench.step(2 * frame); // image 2 comes one refresh late
+    EXPECT_EQ(bench.record().maskFramesPlanned, 30);
+    EXPECT_EQ(bench.record().maskFramesShown, 31);
+    EXPECT_EQ(bench.record().missedFrames, 1);
+    EXPECT_NEAR(bench.record().mask, 31 * frame, 1e-9);
+}
+
+TEST(Trial, ALateStampIsNoMissedRefresh) {
+    Bench bench(0.5);
+    bench.toMask();
+    for (int i = 0; i < 10; ++i)
+        bench.step();
+    bench.step(1.6 * frame);
+    bench.step(0.4 * frame);
+    bench.settle();
+    EXPECT_EQ(bench.maskShown, 30);
+    EXPECT_EQ(bench.record().maskFramesShown, 30);
+    EXPECT_EQ(bench.record().missedFrames, 1) << "above 1.2 frames it is marked all the same";
+}
+
+// Drivers may queue the first swaps after a still picture.
+TEST(Trial, SwapsThatReturnEarlyStillCountAsOneRefreshEach) {
+    Bench bench(0.5);
+    bench.toMask();
+    bench.step(frame);
+    bench.step(0.01 * frame);
+    bench.step(0.7 * frame);
+    bench.settle();
+    EXPECT_EQ(bench.maskShown, 30);
+    EXPECT_EQ(bench.record().maskFramesShown, 30);
+    EXPECT_EQ(bench.record().missedFrames, 0);
+}
+
+TEST(Trial, SpaceInTheMaskChangesNothingButIsCounted) {
+    Bench bench(0.5);
+    bench.toMask();
+    bench.tap(Key::space); // before the grey is even on the screen
+    for (int i = 0; i < 4; ++i) {
+        bench.step();
+        bench.tap(Key::space);
+    }
+    bench.tap(Key::one);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.machine.next(), Next::wait);
+    EXPECT_EQ(bench.maskShown, 30);
+    EXPECT_EQ(bench.record().earlyPresses, 6);
+    EXPECT_EQ(bench.record().chosen, 0);
+}
+
+TEST(Trial, APressQueuedWhileImageTwoComesOnIsDrained) {
+    Bench bench(0.5);
+    bench.toMask();
+    while (bench.machine.screen() == Screen::mask)
+        bench.step();
+    const double pressed = bench.now + 0.5 * frame;
+    bench.machine.handle({Event::Kind::press, pressed, Key::space}); // image 2 is not on yet
+    bench.machine.handle({Event::Kind::release, pressed, Key::space});
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.record().earlyPresses, 1);
+
+    // Delivered after the onset, but stamped before it: the same.
+    bench.machine.handle({Event::Kind::press, pressed, Key::space});
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.record().earlyPresses, 2);
+}
+
+TEST(Trial, AKeyHeldThroughTheMaskMustBeReleasedFirst) {
+    Bench bench(0.5);
+    bench.toFirst();
+    bench.down(Key::space); // ends image 1, and stays down
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.record().earlyPresses, 0);
+    bench.look(1);
+    bench.down(Key::space); // auto-repeat
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    bench.up(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    bench.down(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::question);
+}
+
+TEST(Trial, AKeyPressedInTheMaskAndHeldIsCountedOnceAndDoesNotArm) {
+    Bench bench(0.5);
+    bench.toMask();
+    bench.step();
+    for (int i = 0; i < 5; ++i)
+        bench.down(Key::space); // auto-repeat
+    bench.settle();
+    bench.down(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.record().earlyPresses, 1);
+    bench.up(Key::space), bench.down(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::question);
+}
+
+TEST(Trial, TheSpaceThatStartsThePairDoesNotEndImageOne) {
+    Bench bench;
+    bench.settle();
+    bench.down(Key::space);
+    bench.settle();
+    bench.down(Key::space);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+}
+
+TEST(Trial, KeysBeforeAPictureIsOnTheScreenDoNothing) {
+    Bench bench;
+    bench.tap(Key::space); // start page not yet shown
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::start);
+    bench.tap(Key::space);
+    bench.tap(Key::space); // image 1 not yet shown
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    bench.toSecond();
+}
+
+TEST(Trial, OnlySpaceEndsAnImage) {
+    Bench bench;
+    bench.toFirst();
+    for (const Key key : {Key::one, Key::two, Key::left, Key::right, Key::enter, Key::backspace,
+                          static_cast<Key>(65)})
+        bench.tap(key);
+    bench.click(1);
+    bench.click(2);
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    EXPECT_EQ(bench.machine.next(), Next::wait);
+}
+
+TEST(Trial, AnswersByKeyArrowKeypadAndMouse) {
+    const std::vector<std::pair<Key, int>> keys = {{Key::one, 1},       {Key::left, 1},
+                                                   {Key::keypadOne, 1}, {Key::two, 2},
+                                                   {Key::right, 2},     {Key::keypadTwo, 2}};
+    for (const auto& [key, chosen] : keys) {
+        Bench bench(0.1);
+        bench.toQuestion();
+        bench.tap(key);
+        EXPECT_EQ(bench.record().chosen, chosen);
+    }
+    for (const int option : {1, 2}) {
+        Bench bench(0.1);
+        bench.settle();
+        bench.click(1); // the start page's only option
+        bench.settle();
+        EXPECT_EQ(bench.machine.screen(), Screen::first);
+        bench.tap(Key::space), bench.settle(), bench.tap(Key::space), bench.settle();
+        bench.click(option);
+        EXPECT_EQ(bench.record().chosen, option);
+    }
+}
+
+TEST(Trial, TheQuestionTakesNoOtherKeyAndNoSecondAnswer) {
+    Bench bench(0.1);
+    bench.toQuestion();
+    for (const Key key : {Key::space, Key::enter, Key::backspace, static_cast<Key>(51)})
+        bench.tap(key);
+    EXPECT_EQ(bench.machine.next(), Next::wait);
+    bench.tap(Key::one);
+    bench.tap(Key::two);
+    bench.click(2);
+    bench.tap(Key::escape);
+    EXPECT_EQ(bench.machine.next(), Next::answered);
+    EXPECT_EQ(bench.record().chosen, 1);
+}
+
+TEST(Trial, NothingLeadsBack) {
+    Bench bench(0.1);
+    bench.toSecond();
+    for (const Key key : {Key::backspace, Key::left, Key::one, static_cast<Key>(266)}) // page up
+        bench.tap(key);
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    bench.tap(Key::space), bench.settle();
+    for (const Key key : {Key::backspace, Key::space})
+        bench.tap(key);
+    EXPECT_EQ(bench.machine.screen(), Screen::question);
+}
+
+TEST(Trial, MinimumViewHoldsSpaceBack) {
+    Bench bench(0.1, 1.5);
+    bench.toFirst();
+    bench.look(1), bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    bench.look(0.6), bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::mask);
+    bench.settle();
+    bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    bench.look(1.6), bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::question);
+}
+
+TEST(Trial, LostFocusMarksAnExposureAsInterrupted) {
+    for (const bool inMask : {false, true}) {
+        Bench bench(0.5);
+        inMask ? bench.toMask() : bench.toFirst();
+        bench.loseFocus();
+        EXPECT_TRUE(bench.record().interrupted);
+    }
+    Bench second(0.1);
+    second.toSecond();
+    second.loseFocus();
+    EXPECT_TRUE(second.record().interrupted);
+}
+
+TEST(Trial, LostFocusOnAPageOfTextBreaksNothing) {
+    Bench bench(0.1);
+    bench.settle();
+    bench.loseFocus();
+    bench.toQuestion();
+    bench.loseFocus();
+    bench.tap(Key::one);
+    EXPECT_FALSE(bench.record().interrupted);
+}
+
+TEST(Trial, EscapeAsksAndContinueGoesBack) {
+    for (const Key answer : {Key::one, Key::left, Key::escape}) {
+        Bench bench(0.1);
+        bench.toQuestion();
+        bench.tap(Key::escape);
+        EXPECT_EQ(bench.machine.screen(), Screen::leave);
+        bench.settle();
+        bench.tap(Key::space); // not an answer to that
+        EXPECT_EQ(bench.machine.screen(), Screen::leave);
+        bench.tap(answer);
+        bench.settle();
+        EXPECT_EQ(bench.machine.screen(), Screen::question);
+        EXPECT_EQ(bench.record().chosen, 0);
+        EXPECT_FALSE(bench.record().interrupted);
+    }
+}
+
+TEST(Trial, EscapeInAnImageInterruptsItAndPausesItsTime) {
+    Bench bench(0.1);
+    bench.toFirst();
+    const double onset = bench.now;
+    bench.look(2);
+    bench.tap(Key::escape);
+    bench.settle();
+    bench.look(60);
+    bench.tap(Key::one);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    bench.look(1);
+    bench.tap(Key::space);
+    bench.settle();
+    EXPECT_TRUE(bench.record().interrupted);
+    EXPECT_NEAR(bench.record().onset1, onset, 1e-9);
+    EXPECT_NEAR(bench.record().view1, 3 + 2 * frame, 1e-9);
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.record().maskFramesShown, 6);
+}
+
+TEST(Trial, APauseInTheQuestionDoesNotCountAsDeciding) {
+    Bench bench(0.1);
+    bench.toQuestion();
+    bench.look(0.5);
+    bench.tap(Key::escape), bench.settle(), bench.look(60), bench.tap(Key::one), bench.settle();
+    bench.look(0.25);
+    bench.tap(Key::two);
+    EXPECT_NEAR(bench.record().decision, 0.75 + frame, 1e-9);
+}
+
+TEST(Trial, EscapeInTheMaskIsDrainedLikeAnyKey) {
+    Bench bench(0.5);
+    bench.toMask();
+    bench.step();
+    bench.tap(Key::escape);
+    bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.record().earlyPresses, 1);
+    EXPECT_EQ(bench.maskShown, 30);
+    EXPECT_FALSE(bench.record().interrupted);
+}
+
+TEST(Trial, LeavingEndsWithoutAnAnswer) {
+    for (const bool byMouse : {false, true}) {
+        Bench bench(0.1);
+        bench.toSecond();
+        bench.tap(Key::escape);
+        bench.settle();
+        byMouse ? bench.click(2) : bench.tap(Key::two);
+        EXPECT_EQ(bench.machine.next(), Next::left);
+        EXPECT_EQ(bench.record().chosen, 0);
+        bench.tap(Key::one);
+        EXPECT_EQ(bench.machine.next(), Next::left);
+    }
+}
+
+TEST(Trial, TheAnswerThatContinuesIsNoAnswerToTheQuestion) {
+    Bench bench(0.1);
+    bench.toQuestion();
+    bench.tap(Key::escape), bench.settle();
+    bench.down(Key::one); // continue; still held when the question is back
+    bench.settle();
+    bench.down(Key::one);
+    EXPECT_EQ(bench.machine.next(), Next::wait);
+    bench.up(Key::one), bench.down(Key::one);
+    EXPECT_EQ(bench.record().chosen, 1);
+}
+
+} // namespace
+} // namespace obscura
