@@ -3,16 +3,15 @@
 #include "protocols/error.h"
 #include "protocols/files.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <cassert>
 #include <cerrno>
 #include <cstring>
 #include <utility>
-
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 namespace obscura {
 
@@ -79,7 +78,8 @@ void AppendFile::append(std::string_view lines) {
     if (::ftruncate(descriptor_, before) == 0)
         ::fsync(descriptor_);
     errno = reason;
-    fail(fmt::format("cannot be written; what was to be added: {}", lines.substr(0, lines.size() - 1)));
+    fail(fmt::format("cannot be written; what was to be added: {}",
+                     lines.substr(0, lines.size() - 1)));
 }
 
 void AppendFile::cutTornLine() {

@@ -48,7 +48,8 @@ std::string description(const std::string& study, const std::string& title) {
 std::string readme(const std::string& title) {
     return fmt::format(
         "# {}\n\n"
-        "Data of one study, laid out as Psych-DS. `data/` has one CSV per participant and session,\n"
+        "Data of one study, laid out as Psych-DS. `data/` has one CSV per participant and "
+        "session,\n"
         "one row per trial; `dataset_description.json` says what each column means. `sessions/`\n"
         "has, for each of them, the circumstances (`_session.json`) and a journal of what began\n"
         "and ended when (`_journal.jsonl`), and the ledger of the ordering scheme's slots.\n\n"
@@ -108,10 +109,11 @@ fs::path DataFolder::ledger() const { return root_ / "sessions" / "ledger.jsonl"
 std::string objection(const DataFolder& folder, const SessionId& session) {
     const std::string& id = session.participant;
     if (id.empty() || id.size() > longestId || !std::all_of(id.begin(), id.end(), isAlphanumeric))
-        return fmt::format("expected a participant id of 1 to {} letters (a-z) and digits", longestId);
+        return fmt::format("expected a participant id of 1 to {} letters (a-z) and digits",
+                           longestId);
     if (fs::exists(folder.rows(session)) || fs::exists(folder.journal(session)))
-        return fmt::format("there are data of {}, session {}; another id, or another session",
-                           id, session.number);
+        return fmt::format("there are data of {}, session {}; another id, or another session", id,
+                           session.number);
     return {};
 }
 

@@ -53,7 +53,8 @@ std::vector<SlotRecord> read(const std::filesystem::path& file) {
     std::map<int, SlotRecord> slots;
     std::istringstream lines(std::filesystem::exists(file) ? readFile(file) : "");
     int number = 0;
-    for (std::string text; std::getline(lines, text) && !lines.eof();) { // eof: a line being written
+    for (std::string text;
+         std::getline(lines, text) && !lines.eof();) { // eof: a line being written
         ++number;
         try {
             const SlotRecord record = parse(text);
@@ -93,8 +94,7 @@ int Ledger::claim(const SessionId& session) {
                                 session.simulated ? "real" : "simulated",
                                 session.simulated ? "simulated" : "real"));
     const int slot = freeSlot(records);
-    file.append(
-        line({slot, SlotState::reserved, session, machineName(), utcNow(), processId()}));
+    file.append(line({slot, SlotState::reserved, session, machineName(), utcNow(), processId()}));
     return slot;
 }
 

@@ -1,13 +1,12 @@
 #include "experiment/machine.h"
 
 #include <fmt/chrono.h>
+#include <sys/utsname.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <csignal>
 #include <ctime>
-
-#include <sys/utsname.h>
-#include <unistd.h>
 
 namespace obscura {
 
@@ -23,7 +22,9 @@ std::string systemName() {
     return fmt::format("{} {} {}", names.sysname, names.release, names.machine);
 }
 
-std::string utcNow() { return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))); }
+std::string utcNow() {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
 
 int processId() { return ::getpid(); }
 

@@ -85,7 +85,8 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->type_name("N")
         ->check(CLI::Range(1, 1000000));
     app.footer(
-        "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to end.\n"
+        "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
+        "end.\n"
         "Example: obscura-experiment --protocol protocols/demo.toml --stimuli stimuli_out/demo");
 }
 
@@ -119,8 +120,7 @@ int simulate(const Arguments& arguments, const Study& study) {
     verifyStimuli(study.manifest);
     const Protocol& protocol = study.protocol;
     const DataFolder folder(arguments.data, protocol);
-    const int count =
-        arguments.simulated ? arguments.simulated : protocol.ordering.participants;
+    const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
     Progress progress("simulated participants", count);
     for (int i = 1; i <= count; ++i) {
         const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
@@ -140,7 +140,8 @@ gl::WindowOptions windowOptions(const Arguments& arguments) {
         return options;
     gl::WindowOptions::Size size{};
     int read = 0;
-    if (std::sscanf(arguments.windowSize.c_str(), "%dx%d%n", &size.width, &size.height, &read) != 2 ||
+    if (std::sscanf(arguments.windowSize.c_str(), "%dx%d%n", &size.width, &size.height, &read) !=
+            2 ||
         read != static_cast<int>(arguments.windowSize.size()) || size.width < 1 || size.height < 1)
         throw Error(fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"",
                                 arguments.windowSize));
@@ -164,10 +165,11 @@ std::string warning(const Arguments& arguments, const Refresh& refresh) {
 void reportOrphans(const DataFolder& folder) {
     for (const SlotRecord& record : Ledger(folder.ledger()).records())
         if (isOrphan(record))
-            fmt::print(stderr,
-                       "obscura-experiment: the session of {} broke off; its slot {} stays reserved "
-                       "until obscura-experiment ledger --void {}\n",
-                       record.session.participant, record.slot, record.slot);
+            fmt::print(
+                stderr,
+                "obscura-experiment: the session of {} broke off; its slot {} stays reserved "
+                "until obscura-experiment ledger --void {}\n",
+                record.session.participant, record.slot, record.slot);
 }
 
 int present(const Arguments& arguments, const Study& study) {
@@ -190,7 +192,8 @@ int present(const Arguments& arguments, const Study& study) {
     const SessionId session{*id, arguments.session, false};
     const bool completed = runSession(study, folder, session, presenter);
     fmt::print("{}: {}\n", folder.rows(session).string(),
-               completed ? "complete" : "ended before the last trial; its slot has been given back");
+               completed ? "complete"
+                         : "ended before the last trial; its slot has been given back");
     return 0;
 }
 

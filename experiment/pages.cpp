@@ -10,7 +10,8 @@ Page idPage(const std::string& typed, const std::string& objection) {
     page.text = "Type the participant's pseudonym and press Enter.";
     page.hasField = true;
     page.field = typed;
-    page.note = objection.empty() ? "Letters and digits. Escape ends the program." : objection + ".";
+    page.note =
+        objection.empty() ? "Letters and digits. Escape ends the program." : objection + ".";
     return page;
 }
 

@@ -15,9 +15,10 @@ gl::Picture upload(const Image8& image) {
 
 // Types or deletes one character; false for all other input.
 bool edit(std::string& text, const gl::Input& input) {
-    const bool typed = input.kind == gl::Input::Kind::text && input.symbol > 32 && input.symbol < 127;
-    const bool deleted = input.kind == gl::Input::Kind::press &&
-                         input.key == gl::Key::backspace && !text.empty();
+    const bool typed =
+        input.kind == gl::Input::Kind::text && input.symbol > 32 && input.symbol < 127;
+    const bool deleted =
+        input.kind == gl::Input::Kind::press && input.key == gl::Key::backspace && !text.empty();
     if (typed)
         text += static_cast<char>(input.symbol);
     if (deleted)
@@ -50,8 +51,7 @@ gl::Picture Presenter::load(const Manifest& manifest, const ImageRecord& record)
 Presenter::Sheet Presenter::sheet(Page page) const {
     page.warning = warning_;
     const gl::Window& window = display_.window();
-    DrawnPage drawn =
-        drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
+    DrawnPage drawn = drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
     return {upload(drawn.image), std::move(drawn.options)};
 }
 
@@ -118,7 +118,8 @@ bool Presenter::leaves() {
     showPicture(&leave_.picture, &leave_);
     for (;;)
         for (const Event& event : answers()) {
-            const int option = event.kind == Event::Kind::option ? event.option : optionOf(event.key);
+            const int option =
+                event.kind == Event::Kind::option ? event.option : optionOf(event.key);
             if (option != 0 || event.key == gl::Key::escape)
                 return option == 2;
         }

@@ -22,8 +22,8 @@ Refresh judgeRefresh(std::vector<double> intervals, int reportedHz) {
         refresh.doubt = fmt::format("a swap takes {:.2f} ms, but the system reports {} Hz",
                                     1000 * median, reportedHz);
     else if (10 * near < 9 * static_cast<std::ptrdiff_t>(intervals.size()))
-        refresh.doubt = fmt::format("swaps take from {:.2f} to {:.2f} ms",
-                                    1000 * intervals.front(), 1000 * intervals.back());
+        refresh.doubt = fmt::format("swaps take from {:.2f} to {:.2f} ms", 1000 * intervals.front(),
+                                    1000 * intervals.back());
     else {
         // The mean of those near the median: finer than the median of stamps that jitter.
         const auto from = std::lower_bound(intervals.begin(), intervals.end(), 0.8 * median);

@@ -28,11 +28,11 @@ LatinSquare cyclicSquare(int conditions);
 LatinSquare permutedSquare(int conditions, std::uint64_t seed, int square);
 
 struct Assignment {
-    int slot = 0;               // from 1
-    int square = 0;             // from 1
-    int row = 0;                // from 1
-    bool reversed = false;      // member b of every pair comes first
-    std::vector<int> order;     // conditions as the protocol lists them, from 0
+    int slot = 0;           // from 1
+    int square = 0;         // from 1
+    int row = 0;            // from 1
+    bool reversed = false;  // member b of every pair comes first
+    std::vector<int> order; // conditions as the protocol lists them, from 0
 };
 
 Assignment assign(OrderScheme scheme, int conditions, std::uint64_t seed, int slot);

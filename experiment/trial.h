@@ -33,7 +33,7 @@ struct TrialRecord {
     int maskFramesPlanned = 0, maskFramesShown = 0, missedFrames = 0;
     int earlyPresses = 0; // keys pressed between the end of image 1 and the onset of image 2
     bool interrupted = false;
-    int chosen = 0; // 1 or 2; 0 until answered
+    int chosen = 0;                    // 1 or 2; 0 until answered
     std::vector<double> maskIntervals; // between its refreshes
 };
 
@@ -85,14 +85,14 @@ class TrialMachine {
     double refreshHz_;
     TrialRecord record_;
 
-    Screen screen_ = Screen::start;   // wanted
-    std::optional<Screen> visible_;   // the one on the screen now,
-    double since_ = 0;                // and since when
-    bool pending_ = true;             // screen_ is not on the screen yet
+    Screen screen_ = Screen::start; // wanted
+    std::optional<Screen> visible_; // the one on the screen now,
+    double since_ = 0;              // and since when
+    bool pending_ = true;           // screen_ is not on the screen yet
     bool journalled_ = false;
     bool left_ = false;
-    Screen paused_ = Screen::start;   // what `leave` returns to
-    std::array<double, 6> viewed_{};  // per screen, without the visible one
+    Screen paused_ = Screen::start;  // what `leave` returns to
+    std::array<double, 6> viewed_{}; // per screen, without the visible one
     std::set<gl::Key> held_;
 
     int maskSwaps_ = 0;

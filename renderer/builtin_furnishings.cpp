@@ -21,9 +21,9 @@ float smooth(float from, float to, float x) {
 glm::vec3 curtainPoint(float width, float height, glm::vec2 uv) {
     const float down = uv.y, tie = 0.55F;
     const float gathered = down < tie ? smooth(0, tie, down) : 1 - 0.55F * smooth(tie, 1, down);
-    const float across = width * (1 - 0.76F * gathered * (0.35F + 0.65F * smooth(0, 0.5F, down)));
+    const float across = width * (1 - 0.70F * gathered * (0.35F + 0.65F * smooth(0, 0.5F, down)));
     // Cloth keeps its length: where the panel is narrow its folds are deep.
-    const float depth = 0.018F + 0.075F * (1 - across / width);
+    const float depth = 0.018F + 0.055F * (1 - across / width);
     const float pleats = 5.5F, wave = glm::two_pi<float>() * pleats * uv.x;
     const float drift = 0.9F * std::sin(3.1F * down + 4 * uv.x) + 0.4F * std::sin(7 * uv.x);
     const float sag = 0.35F * gathered * uv.x * uv.x * (down < tie ? 1 - down / tie : 0.0F);

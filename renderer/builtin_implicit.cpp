@@ -94,7 +94,6 @@ class Net {
     void addVertex(glm::ivec3 cell);
     glm::vec3 settled(glm::vec3 p, glm::ivec3 cell) const;
     void addFaces(glm::ivec3 corner);
-    void addQuad(std::array<std::uint32_t, 4> q);
 
     const Field& field_;
     glm::vec3 low_;
@@ -173,26 +172,8 @@ void Net::addFaces(glm::ivec3 corner) {
                                           vertex(corner), vertex(corner - u)};
         if (!inside)
             std::swap(quad[1], quad[3]);
-        addQuad(quad);
+        shape_.addQuad(quad);
     }
-}
-
-// Split where its two triangles agree best with the normals of the surface.
-void Net::addQuad(std::array<std::uint32_t, 4> q) {
-    const auto agreement = [&](std::size_t a, std::size_t b, std::size_t c) {
-        const Vertex &va = shape_.vertices[q[a]], &vb = shape_.vertices[q[b]],
-                     &vc = shape_.vertices[q[c]];
-        const glm::vec3 face = glm::cross(vb.position - va.position, vc.position - va.position);
-        return glm::dot(face, va.normal + vb.normal + vc.normal) /
-               (glm::length(face) + 1e-3F * cell_ * cell_);
-    };
-    const float first = std::min(agreement(0, 1, 2), agreement(0, 2, 3));
-    const float second = std::min(agreement(0, 1, 3), agreement(1, 2, 3));
-    const std::array<std::size_t, 6> corners = first >= second
-                                                   ? std::array<std::size_t, 6>{0, 1, 2, 0, 2, 3}
-                                                   : std::array<std::size_t, 6>{0, 1, 3, 1, 2, 3};
-    for (std::size_t i = 0; i < 6; i += 3)
-        shape_.addTriangle(q[corners[i]], q[corners[i + 1]], q[corners[i + 2]]);
 }
 
 } // namespace

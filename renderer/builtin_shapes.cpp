@@ -30,8 +30,24 @@ void Shape::addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     const glm::vec3 corner = vertices[a].position;
     const glm::vec3 doubleArea =
         glm::cross(vertices[b].position - corner, vertices[c].position - corner);
-    if (glm::length(doubleArea) > 1e-8F) // 0.01 mm²
+    if (glm::length(doubleArea) > 2e-7F) // 0.1 mm²
         indices.insert(indices.end(), {a, b, c});
+}
+
+void Shape::addQuad(const std::array<std::uint32_t, 4>& corners) {
+    const auto agreement = [&](std::size_t a, std::size_t b, std::size_t c) {
+        const Vertex &va = vertices[corners[a]], &vb = vertices[corners[b]],
+                     &vc = vertices[corners[c]];
+        const glm::vec3 face = glm::cross(vb.position - va.position, vc.position - va.position);
+        const float area = std::max(glm::length(face), 1e-12F);
+        return glm::dot(face, va.normal + vb.normal + vc.normal) / area;
+    };
+    // A flat quad is split along its first diagonal, whatever the rounding.
+    const float first = std::min(agreement(0, 1, 2), agreement(0, 2, 3)) + 1e-4F;
+    const float second = std::min(agreement(0, 1, 3), agreement(1, 2, 3));
+    const std::size_t other = first >= second ? 2 : 3;
+    addTriangle(corners[0], corners[1], corners[other]);
+    addTriangle(corners[other == 2 ? 0 : 1], corners[2], corners[3]);
 }
 
 void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres) {
@@ -66,8 +82,7 @@ void addCells(Shape& shape, int across, int up) {
         for (int i = 0; i < across; ++i) {
             const auto a = static_cast<std::uint32_t>(first + j * row + i);
             const auto b = a + static_cast<std::uint32_t>(row);
-            shape.addTriangle(a, a + 1, b + 1);
-            shape.addTriangle(a, b + 1, b);
+            shape.addQuad({a, a + 1, b + 1, b});
         }
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -21,6 +22,8 @@ struct Shape {
     void add(const Shape& part, const glm::mat4& place = glm::mat4(1));
     // Leaves out a triangle of no area, as at the pole of a sphere.
     void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+    // Split where its two triangles agree best with the normals at its corners.
+    void addQuad(const std::array<std::uint32_t, 4>& corners);
 };
 
 void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres = 1);

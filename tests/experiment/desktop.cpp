@@ -2,18 +2,17 @@
 
 #include "protocols/error.h"
 
-#include <fmt/format.h>
-
-#include <chrono>
-#include <csignal>
-#include <thread>
-
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
 
 namespace obscura::test {
 
@@ -74,8 +73,8 @@ void Desktop::press(unsigned long keySymbol) {
 }
 
 void Desktop::release(unsigned long keySymbol) {
-    XTestFakeKeyEvent(connection_->display, XKeysymToKeycode(connection_->display, keySymbol), False,
-                      CurrentTime);
+    XTestFakeKeyEvent(connection_->display, XKeysymToKeycode(connection_->display, keySymbol),
+                      False, CurrentTime);
     XSync(connection_->display, False);
 }
 
@@ -98,15 +97,14 @@ void Desktop::click(int x, int y) {
 
 Image8 Desktop::look() const {
     Display* display = connection_->display;
-    XImage* grab = XGetImage(display, DefaultRootWindow(display), 0, 0,
-                             static_cast<unsigned>(width_), static_cast<unsigned>(height_),
-                             AllPlanes, ZPixmap);
+    XImage* grab =
+        XGetImage(display, DefaultRootWindow(display), 0, 0, static_cast<unsigned>(width_),
+                  static_cast<unsigned>(height_), AllPlanes, ZPixmap);
     Image8 image{width_, height_, 3, {}};
     for (int y = 0; y < height_; ++y)
         for (int x = 0; x < width_; ++x)
             for (const int shift : {16, 8, 0})
-                image.pixels.push_back(
-                    static_cast<std::uint8_t>(XGetPixel(grab, x, y) >> shift));
+                image.pixels.push_back(static_cast<std::uint8_t>(XGetPixel(grab, x, y) >> shift));
     XDestroyImage(grab);
     return image;
 }

@@ -2,10 +2,10 @@
 
 #include "renderer/image.h"
 
+#include <sys/types.h>
+
 #include <memory>
 #include <string>
-
-#include <sys/types.h>
 
 namespace obscura::test {
 
@@ -25,7 +25,7 @@ class Desktop {
     void type(const std::string& lettersAndDigits);
     void click(int x, int y);
 
-    Image8 look() const;                                      // the whole screen, RGB
+    Image8 look() const;                                       // the whole screen, RGB
     bool awaits(const Image8& expected, double seconds) const; // until the screen shows just that
 
   private:

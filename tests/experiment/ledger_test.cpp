@@ -1,5 +1,4 @@
 #include "experiment/ledger.h"
-
 #include "experiment/machine.h"
 #include "protocols/error.h"
 #include "protocols/files.h"
@@ -8,13 +7,12 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
 #include <set>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace obscura {
 namespace {
@@ -78,9 +76,12 @@ TEST_F(LedgerTest, AClaimReturnsItsSlotUnlessCompleted) {
 
 TEST_F(LedgerTest, SimulatedAndRealDoNotMix) {
     claim("P1");
-    EXPECT_THAT([&] { ledger.claim({"S01", 1, true}); },
-                ThrowsMessage<Error>(HasSubstr("this folder holds real participants; simulated "
-                                               "ones need a data folder of their own: --data DIR")));
+    EXPECT_THAT(
+        [&] {
+            ledger.claim({"S01", 1, true});
+        },
+        ThrowsMessage<Error>(HasSubstr("this folder holds real participants; simulated "
+                                       "ones need a data folder of their own: --data DIR")));
     EXPECT_EQ(claim("P2"), 2) << "the refused claim left nothing behind";
 }
 

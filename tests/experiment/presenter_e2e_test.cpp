@@ -9,20 +9,19 @@
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"
 
+#include <X11/keysym.h>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <thread>
-
-#include <X11/keysym.h>
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 namespace obscura {
 namespace {
@@ -38,7 +37,8 @@ constexpr const char* banner = "Untimed display: not suitable for data collectio
 // A program under test: started with arguments on a display, its output in a file.
 class Program {
   public:
-    Program(const std::string& display, std::vector<std::string> arguments, const fs::path& output) {
+    Program(const std::string& display, std::vector<std::string> arguments,
+            const fs::path& output) {
         process_ = ::fork();
         if (process_ != 0)
             return;
@@ -76,9 +76,7 @@ class Program {
     pid_t process_;
 };
 
-void pause(double seconds) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
+void pause(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
 
 class PresenterTest : public testing::Test {
   protected:
@@ -93,8 +91,8 @@ class PresenterTest : public testing::Test {
     }
     std::vector<std::string> arguments(std::vector<std::string> more = {}) {
         std::vector<std::string> all = {"--protocol", study.protocol.path.string(),
-                                        "--stimuli", study.manifest.folder.string(),
-                                        "--data", data.string()};
+                                        "--stimuli",  study.manifest.folder.string(),
+                                        "--data",     data.string()};
         all.insert(all.end(), more.begin(), more.end());
         return all;
     }
@@ -190,8 +188,7 @@ TEST_F(PresenterTest, AllSevenTrialsByKeysAndMouse) {
     EXPECT_THAT(journal("P01"), HasSubstr("\"reason\":\"completed\""));
     EXPECT_THAT(test::psychDsFaults(data / "tiny-study"), IsEmpty());
     EXPECT_THAT(readFile(output), HasSubstr("not suitable for data collection"));
-    const auto sidecar =
-        nlohmann::json::parse(readFile(dataFolder().sidecar({"P01", 1, false})));
+    const auto sidecar = nlohmann::json::parse(readFile(dataFolder().sidecar({"P01", 1, false})));
     EXPECT_EQ(sidecar["display"]["framebuffer"], "640x400");
     EXPECT_EQ(sidecar["end_reason"], "completed");
 }
@@ -255,8 +252,9 @@ TEST_F(PresenterTest, KilledInTheMiddleOfATrialLosesNoRow) {
     EXPECT_EQ(readFile(dataFolder().rows({"P01", 1, false})), before);
 
     // Given back by a person, the slot goes to the next.
-    Program ledger(desktop.name(), {"ledger", "--protocol", study.protocol.path.string(), "--data",
-                                    data.string(), "--void", "1"},
+    Program ledger(desktop.name(),
+                   {"ledger", "--protocol", study.protocol.path.string(), "--data", data.string(),
+                    "--void", "1"},
                    output);
     EXPECT_EQ(ledger.wait(), 0);
     EXPECT_THAT(readFile(output), HasSubstr("1  void       P01"));

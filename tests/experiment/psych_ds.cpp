@@ -32,8 +32,8 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 std::set<std::string> describedVariables(const fs::path& dataset, Faults& faults) {
-    const auto json = nlohmann::json::parse(std::ifstream(dataset / "dataset_description.json"),
-                                            nullptr, false);
+    const auto json =
+        nlohmann::json::parse(std::ifstream(dataset / "dataset_description.json"), nullptr, false);
     std::set<std::string> names;
     if (!json.is_object()) {
         faults.push_back("dataset_description.json is missing or no JSON object");
@@ -45,8 +45,10 @@ std::set<std::string> describedVariables(const fs::path& dataset, Faults& faults
         if (!json.contains(key) || json[key].empty())
             faults.push_back(fmt::format("dataset_description.json lacks {}", key));
     for (const auto& variable : json.value("variableMeasured", nlohmann::json::array()))
-        if (!names.insert(variable.is_string() ? variable.get<std::string>()
-                                               : variable.value("name", "")).second)
+        if (!names
+                 .insert(variable.is_string() ? variable.get<std::string>()
+                                              : variable.value("name", ""))
+                 .second)
             faults.push_back("a variable is described twice");
     return names;
 }

@@ -1,5 +1,4 @@
 #include "experiment/recorder.h"
-
 #include "protocols/error.h"
 #include "protocols/files.h"
 #include "tests/experiment/psych_ds.h"
@@ -8,13 +7,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
-#include <csignal>
-#include <fstream>
-
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include <csignal>
+#include <fstream>
 
 namespace obscura {
 namespace {
@@ -135,8 +133,8 @@ TEST_F(RecorderTest, KilledProcessLosesNoRow) {
     ASSERT_EQ(::read(ready[0], &byte, 1), 1);
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
-    EXPECT_EQ(readFile(folder.rows(session)),
-              responseHeader() + responseLine(row(1)) + responseLine(row(2)) + responseLine(row(3)));
+    EXPECT_EQ(readFile(folder.rows(session)), responseHeader() + responseLine(row(1)) +
+                                                  responseLine(row(2)) + responseLine(row(3)));
     EXPECT_THAT(readFile(folder.journal(session)), HasSubstr("\"trial\":4"));
 }
 

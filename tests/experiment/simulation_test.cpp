@@ -1,5 +1,4 @@
 #include "experiment/session.h"
-
 #include "protocols/error.h"
 #include "protocols/files.h"
 #include "protocols/responses.h"
@@ -133,7 +132,8 @@ TEST_F(SimulationTest, SidecarSaysHowItWent) {
     const DataFolder data(folder.path() / "data", tiny.protocol);
     const auto sidecar = nlohmann::json::parse(readFile(data.sidecar({"S02", 1, true})));
     EXPECT_EQ(sidecar["slot"], 2);
-    EXPECT_EQ(sidecar["order"], (std::vector<std::string>{"c2", "c3", "c4", "c5", "c6", "c7", "c1"}));
+    EXPECT_EQ(sidecar["order"],
+              (std::vector<std::string>{"c2", "c3", "c4", "c5", "c6", "c7", "c1"}));
     EXPECT_EQ(sidecar["end_reason"], "completed");
     EXPECT_EQ(sidecar["model"]["seed"], 9);
     EXPECT_EQ(sidecar["mask_intervals"]["count"], 7 * 18);

@@ -1,5 +1,4 @@
 #include "experiment/pages.h"
-
 #include "protocols/error.h"
 
 #include <gmock/gmock.h>
@@ -49,9 +48,9 @@ TEST(Text, SurroundIsTheStudysGrey) {
 
 TEST(Text, EveryPageFitsEveryScreen) {
     for (const Size size : sizes)
-        for (const Page& page : {instructionsPage(texts), startPage(texts, 3, 7),
-                                 questionPage(texts), leavePage(), thanksPage(texts),
-                                 idPage("P01", "")}) {
+        for (const Page& page :
+             {instructionsPage(texts), startPage(texts, 3, 7), questionPage(texts), leavePage(),
+              thanksPage(texts), idPage("P01", "")}) {
             const DrawnPage drawn = drawPage(page, size.width, size.height, 128);
             EXPECT_EQ(drawn.image.width, size.width);
             const auto [top, bottom] = inkedRows(drawn.image, 128);
@@ -87,14 +86,12 @@ TEST(Text, LongTextIsSetSmallerAndThenRefused) {
     EXPECT_NO_THROW(drawPage(instructionsPage(longer), 1280, 720, 128));
     longer.instructions = words + words + words;
     EXPECT_THAT([&] { drawPage(instructionsPage(longer), 1280, 720, 128); },
-                testing::ThrowsMessage<Error>(testing::AllOf(
-                    testing::HasSubstr("too long for a screen of 1280x720 pixels"),
-                    testing::HasSubstr("Look at each image."))));
+                testing::ThrowsMessage<Error>(
+                    testing::AllOf(testing::HasSubstr("too long for a screen of 1280x720 pixels"),
+                                   testing::HasSubstr("Look at each image."))));
 }
 
-TEST(Text, StartPageCountsPairs) {
-    EXPECT_EQ(startPage(texts, 3, 7).heading, "3 / 7");
-}
+TEST(Text, StartPageCountsPairs) { EXPECT_EQ(startPage(texts, 3, 7).heading, "3 / 7"); }
 
 TEST(Text, TheWarningIsABandAcrossTheTop) {
     Page page = questionPage(texts);

@@ -42,12 +42,15 @@ class Bench {
         return true;
     }
     void settle() {
-        while (step()) {}
+        while (step()) {
+        }
     }
     void settleOn(Screen screen) {
-        while (machine.screen() != screen && step()) {}
-        while (machine.screen() == screen && machine.next() != Next::wait && screen != Screen::mask &&
-               step()) {}
+        while (machine.screen() != screen && step()) {
+        }
+        while (machine.screen() == screen && machine.next() != Next::wait &&
+               screen != Screen::mask && step()) {
+        }
         ASSERT_EQ(machine.screen(), screen);
     }
 

@@ -1,0 +1,72 @@
+#include "experiment/sidecar.h"
+
+#include "experiment/machine.h"
+#include "protocols/version.h"
+
+#include <nlohmann/json.hpp>
+
+namespace obscura {
+
+using nlohmann::ordered_json;
+
+namespace {
+
+ordered_json orderOf(const Study& study, const Assignment& assignment) {
+    ordered_json order = ordered_json::array();
+    for (const int condition : assignment.order)
+        order.push_back(study.pair(condition).condition);
+    return order;
+}
+
+ordered_json spell(const IntervalSummary& summary) {
+    return {{"count", summary.count},
+            {"mean_ms", 1000 * summary.mean},
+            {"deviation_ms", 1000 * summary.deviation},
+            {"least_ms", 1000 * summary.least},
+            {"most_ms", 1000 * summary.most},
+            {"histogram_tenths_of_a_refresh", summary.histogram}};
+}
+
+} // namespace
+
+ordered_json circumstances(const Context& context, const Observer& observer) {
+    const Protocol& protocol = context.study.protocol;
+    ordered_json sidecar = {
+        {"study", protocol.name},
+        {"protocol", protocol.path.string()},
+        {"protocol_sha256", protocol.sha256},
+        {"stimuli", context.study.manifest.folder.string()},
+        {"participant", context.session.participant},
+        {"session", context.session.number},
+        {"simulated", context.session.simulated},
+        {"slot", context.assignment.slot},
+        {"square", context.assignment.square},
+        {"square_row", context.assignment.row},
+        {"pairs_reversed", context.assignment.reversed},
+        {"order", orderOf(context.study, context.assignment)},
+        {"protocol_seed", protocol.seed},
+        {"grey", protocol.trial.grey},
+        {"mask_s", protocol.trial.mask},
+        {"refresh_hz", context.refresh.hz},
+        {"timestamp_source", context.refresh.source},
+        {"timing_doubt", context.refresh.doubt},
+        {"app_version", version()},
+        {"git_commit", commit()},
+        {"machine", machineName()},
+        {"system", systemName()},
+        {"started", utcNow()},
+        {"ended", nullptr},
+        {"end_reason", "running, or crashed"},
+    };
+    observer.describe(sidecar);
+    return sidecar;
+}
+
+void addOutcome(ordered_json& sidecar, const std::string& reason,
+                const std::vector<double>& maskIntervals, double refreshHz) {
+    sidecar["ended"] = utcNow();
+    sidecar["end_reason"] = reason;
+    sidecar["mask_intervals"] = spell(summarise(maskIntervals, refreshHz));
+}
+
+} // namespace obscura
