@@ -107,10 +107,11 @@ std::string notEquivalence(const Findings& findings) {
         widest.low = std::min(widest.low, interval.low);
         widest.high = std::max(widest.high, interval.high);
     }
-    return fmt::format("For the other {} the data do not decide: a large p, even 1, does not show "
-                       "that two images look equally real, and the intervals leave room for "
-                       "shares from {:.0f} to {:.0f} %.",
-                       others.size(), 100 * widest.low, 100 * widest.high);
+    return fmt::format("For {} {} the data do not decide: a large p, even 1, does not show that "
+                       "two images look equally real, and the intervals leave room for shares from "
+                       "{:.0f} to {:.0f} %.",
+                       different(findings).empty() ? "all" : "the other", others.size(),
+                       100 * widest.low, 100 * widest.high);
 }
 
 std::string repeatedVotes(const Findings& findings) {

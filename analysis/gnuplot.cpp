@@ -24,7 +24,7 @@ struct CloseFile {
 using Scratch = std::unique_ptr<std::FILE, CloseFile>;
 
 // A nameless file: unlike a pipe it cannot block either side, and leaves nothing behind.
-Scratch scratch(std::string_view content = {}) {
+Scratch scratch(std::string_view content = "") {
     Scratch file(std::tmpfile());
     if (!file || std::fwrite(content.data(), 1, content.size(), file.get()) != content.size())
         throw Error(fmt::format("no temporary file for gnuplot: {}", std::strerror(errno)));

@@ -43,6 +43,9 @@ tbody tr {{ border-bottom: 1px solid #ddd; }}
 .hash {{ font-family: monospace; overflow-wrap: anywhere; }}
 @media print {{
   body {{ font-size: 10pt; margin: 0; max-width: none; }}
+  .wide {{ overflow: visible; }}
+  table, .aside {{ font-size: 7.5pt; }}
+  th, td {{ padding: 2pt 3.5pt; }}
   figure, tr {{ break-inside: avoid; }}
   h2 {{ break-after: avoid; }}
   .stamp, .differs td {{ print-color-adjust: exact; -webkit-print-color-adjust: exact; }}
@@ -87,9 +90,10 @@ std::string tableHtml(const Table& table, const std::vector<Tally>& tallies) {
 
 constexpr std::string_view tableNote = R"(<p class="aside">Votes for the more realistic of two
 images; shaded where the exact p is below .05, uncorrected for the number of tests. b share: with
-its 95 % Wilson interval. χ²: against an even split, one degree of freedom. p (exact): two-sided
-binomial. g: Cohen's, share − ½. JOD: how far b lies above a in just-objectionable differences; 1
-means that 75 % prefer b. votes.csv beside this page has all digits, and Cohen's h and w.</p>
+its 95 % Wilson interval, which excludes 50 % exactly where the p of χ² is below .05. χ²: against an
+even split, one degree of freedom. p (exact): two-sided binomial, and the one to trust. g: Cohen's,
+share − ½. JOD: how far b lies above a in just-objectionable differences; 1 means that 75 % prefer
+b. The CSV written with this page has all digits, and Cohen's h and w.</p>
 )";
 
 std::string results(const Findings& findings) {

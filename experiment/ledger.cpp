@@ -17,13 +17,12 @@ namespace obscura {
 
 namespace {
 
-// "void" is what experimenters call a slot that has been given back.
-constexpr std::array<const char*, 3> stateNames = {"reserved", "completed", "void"};
+constexpr std::array<std::string_view, 3> stateNames = {"reserved", "completed", "void"};
 
 std::string line(const SlotRecord& record) {
     const nlohmann::ordered_json json = {
         {"slot", record.slot},
-        {"state", stateNames[static_cast<std::size_t>(record.state)]},
+        {"state", nameOf(record.state)},
         {"participant", record.session.participant},
         {"session", record.session.number},
         {"simulated", record.session.simulated},
@@ -38,7 +37,8 @@ SlotRecord parse(const std::string& text) {
     const nlohmann::json json = nlohmann::json::parse(text);
     SlotRecord record;
     record.slot = json.at("slot");
-    const auto name = std::find(stateNames.begin(), stateNames.end(), json.at("state"));
+    const auto name =
+        std::find(stateNames.begin(), stateNames.end(), json.at("state").get<std::string>());
     record.state = static_cast<SlotState>(name - stateNames.begin());
     record.session = {json.at("participant"), json.at("session"), json.at("simulated")};
     record.machine = json.at("machine");
@@ -81,6 +81,8 @@ int freeSlot(const std::vector<SlotRecord>& records) {
 }
 
 } // namespace
+
+std::string_view nameOf(SlotState state) { return stateNames[static_cast<std::size_t>(state)]; }
 
 std::vector<SlotRecord> Ledger::records() const { return read(file_); }
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -15,6 +15,7 @@ struct SessionId {
 };
 
 enum class SlotState { reserved, completed, returned };
+std::string_view nameOf(SlotState state); // "void" for returned: what experimenters call it
 
 // What became of a slot last.
 struct SlotRecord {

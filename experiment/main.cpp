@@ -54,9 +54,7 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_option("--windowed", arguments.windowSize,
                    "Rehearse in a window, of 1280x800 unless a size is given")
         ->type_name("WxH")
-        ->expected(0, 1)
-        ->trigger_on_parse()
-        ->each([&](const std::string&) { arguments.windowed = true; });
+        ->expected(0, 1);
     app.add_flag("--accept-untimed", arguments.acceptUntimed,
                  "Leave out the warning on displays without a vertical blank");
     CLI::Option* simulate =
@@ -99,10 +97,8 @@ int listMonitors() {
 }
 
 void print(const SlotRecord& record) {
-    constexpr const char* states[] = {"reserved", "completed", "void"};
-    fmt::print("{:4}  {:9}  {:12}  session {}  {}{}\n", record.slot,
-               states[static_cast<std::size_t>(record.state)], record.session.participant,
-               record.session.number, record.time,
+    fmt::print("{:4}  {:9}  {:12}  session {}  {}{}\n", record.slot, nameOf(record.state),
+               record.session.participant, record.session.number, record.time,
                isOrphan(record) ? "  its process has died; --void gives the slot back" : "");
 }
 
@@ -205,6 +201,7 @@ int run(int argc, char** argv) {
     declare(app, arguments);
     CLI11_PARSE(app, argc, argv);
     arguments.simulate = app.count("--simulate") > 0;
+    arguments.windowed = app.count("--windowed") > 0;
 
     if (arguments.listMonitors)
         return listMonitors();

@@ -63,27 +63,45 @@ double Presenter::showPicture(const gl::Picture* picture, const Sheet* sheet) {
 }
 
 std::vector<Event> Presenter::events(bool wait) {
+    using Kind = gl::Input::Kind;
     std::vector<Event> events;
-    for (const gl::Input& input : wait ? display_.window().wait() : display_.window().poll()) {
-        using Kind = gl::Input::Kind;
-        if (input.kind == Kind::press)
+    for (const gl::Input& input : wait ? display_.window().wait() : display_.window().poll())
+        switch (input.kind) {
+        case Kind::press:
             events.push_back({Event::Kind::press, input.time, input.key});
-        else if (input.kind == Kind::release)
+            break;
+        case Kind::release:
             events.push_back({Event::Kind::release, input.time, input.key});
-        else if (input.kind == Kind::focusLost)
+            break;
+        case Kind::focusLost:
             events.push_back({Event::Kind::focusLost, input.time});
-        else if (input.kind == Kind::close) { // as if Escape were pressed
+            break;
+        case Kind::close: // as if Escape were pressed
             events.push_back({Event::Kind::press, input.time, gl::Key::escape});
             events.push_back({Event::Kind::release, input.time, gl::Key::escape});
-        } else if (input.kind == Kind::click && shownSheet_) {
-            for (std::size_t i = 0; i < shownSheet_->options.size(); ++i)
-                if (shownSheet_->options[i].contains(input.x, input.y))
-                    events.push_back(
-                        {Event::Kind::option, input.time, {}, static_cast<int>(i) + 1});
-        } else if (input.kind == Kind::exposed && wait)
-            display_.show(shown_); // something had covered the window
-    }
+            break;
+        case Kind::click:
+            if (const int option = optionAt(input.x, input.y))
+                events.push_back({Event::Kind::option, input.time, {}, option});
+            break;
+        case Kind::exposed: // something had covered the window
+            if (wait)
+                display_.show(shown_);
+            break;
+        case Kind::text:
+            break;
+        }
     return events;
+}
+
+// Of the page on the screen, from 1; 0 when there is none at that place.
+int Presenter::optionAt(int x, int y) const {
+    if (!shownSheet_)
+        return 0;
+    const auto& boxes = shownSheet_->options;
+    const auto found = std::find_if(boxes.begin(), boxes.end(),
+                                    [&](const Box& box) { return box.contains(x, y); });
+    return found == boxes.end() ? 0 : static_cast<int>(found - boxes.begin()) + 1;
 }
 
 // For pages outside a trial: sleeps until there are presses or clicks.
@@ -98,10 +116,15 @@ std::vector<Event> Presenter::answers() {
     }
 }
 
+// Drops what was pressed before the page was on the screen.
+void Presenter::turnTo(const Sheet& page) {
+    showPicture(&page.picture, &page);
+    events(false);
+}
+
 // Until Space or a click on the page's option; false when the person leaves instead.
 bool Presenter::read(const Sheet& page) {
-    events(false); // what was pressed for the page before
-    showPicture(&page.picture, &page);
+    turnTo(page);
     for (;;)
         for (const Event& event : answers()) {
             if (event.key == gl::Key::space || event.kind == Event::Kind::option)
@@ -109,13 +132,13 @@ bool Presenter::read(const Sheet& page) {
             if (event.key == gl::Key::escape) {
                 if (leaves())
                     return false;
-                showPicture(&page.picture, &page);
+                turnTo(page);
             }
         }
 }
 
 bool Presenter::leaves() {
-    showPicture(&leave_.picture, &leave_);
+    turnTo(leave_);
     for (;;)
         for (const Event& event : answers()) {
             const int option =
@@ -129,7 +152,7 @@ bool Presenter::instruct() { return read(sheet(instructionsPage(study_.protocol.
 
 void Presenter::thank() {
     const Sheet page = sheet(thanksPage(study_.protocol.texts));
-    showPicture(&page.picture, &page);
+    turnTo(page);
     answers();
 }
 

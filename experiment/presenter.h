@@ -41,7 +41,9 @@ class Presenter : public Observer {
     Sheet sheet(Page page) const;
     gl::Picture load(const Manifest& manifest, const ImageRecord& record);
     double showPicture(const gl::Picture* picture, const Sheet* sheet);
+    int optionAt(int x, int y) const;
     std::vector<Event> answers();
+    void turnTo(const Sheet& page);
     bool read(const Sheet& page);
     bool leaves();
 

@@ -43,7 +43,7 @@ void addCondition(Response& row, const PairRecord& pair, bool reversed) {
     row.stimSecond = second.image.path;
     row.sha256First = first.image.sha256;
     row.sha256Second = second.image.sha256;
-    row.firstIs = reversed ? "b" : "a";
+    row.firstIs = reversed ? 'b' : 'a';
 }
 
 void addTiming(Response& row, const TrialRecord& trial, const Refresh& refresh) {

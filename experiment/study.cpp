@@ -15,9 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string remedy(const Manifest& manifest, const Protocol& protocol) {
-    return fmt::format("make them again: obscura-stimuli --protocol {} --out {}",
-                       protocol.path.string(), manifest.folder.string());
+std::string remedy(const fs::path& protocol, const fs::path& stimuli) {
+    return fmt::format("make them: obscura-stimuli --protocol {} --out {}", protocol.string(),
+                       stimuli.string());
 }
 
 void checkBelongTogether(const Protocol& protocol, const Manifest& manifest) {
@@ -27,12 +27,13 @@ void checkBelongTogether(const Protocol& protocol, const Manifest& manifest) {
                     fmt::format("these stimuli were made from another version of {} (SHA-256 "
                                 "{:.12}..., the file has {:.12}...); {}",
                                 protocol.path.string(), manifest.protocolSha256, protocol.sha256,
-                                remedy(manifest, protocol)));
+                                remedy(protocol.path, manifest.folder)));
     for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
         if (i >= manifest.pairs.size() || manifest.pairs[i].condition != protocol.conditions[i].id)
             throw Error({place, 0, 0, fmt::format("pairs[{}]", i)},
                         fmt::format("expected the pair of condition \"{}\"; {}",
-                                    protocol.conditions[i].id, remedy(manifest, protocol)));
+                                    protocol.conditions[i].id,
+                                    remedy(protocol.path, manifest.folder)));
 }
 
 // The file's bytes.
@@ -54,6 +55,10 @@ const PairRecord& Study::pair(int condition) const {
 }
 
 Study openStudy(const fs::path& protocol, const fs::path& stimuli) {
+    if (!fs::exists(stimuli / "manifest.json"))
+        throw Error({stimuli.string(), 0, 0, {}},
+                    "expected a folder with stimuli, found no manifest.json in it; " +
+                        remedy(protocol, stimuli));
     Study study{readProtocol(protocol), readManifest(stimuli / "manifest.json")};
     // The manifest's order of pairs is its writer's affair; ours is the protocol's.
     std::vector<PairRecord> ordered;

@@ -24,20 +24,29 @@ std::string Place::prefix() const {
 
 namespace {
 
-// Levenshtein's distance, one row at a time.
+// Edits to turn `a` into `b`: insert, delete, replace, or exchange two neighbours (the restricted
+// distance of Damerau 1964).
 std::size_t editDistance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t substitute = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({substitute, diagonal + 1, row[j] + 1});
+    std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
+    std::iota(above.begin(), above.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            row[j] = std::min({above[j - 1] + (a[i - 1] != b[j - 1]), above[j] + 1, row[j - 1] + 1});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
         }
+        before = above;
+        above = row;
     }
-    return row.back();
+    return above.back();
+}
+
+// The beginning of a name counts as near: "fov" for "fovDegrees".
+std::size_t distance(std::string_view given, std::string_view candidate) {
+    if (given.size() >= 3 && candidate.starts_with(given))
+        return 1;
+    return editDistance(given, candidate);
 }
 
 } // namespace
@@ -46,10 +55,10 @@ std::string nearest(std::string_view given, std::span<const std::string> candida
     std::string best;
     std::size_t bestDistance = ~std::size_t{0};
     for (const std::string& candidate : candidates) {
-        const std::size_t distance = editDistance(given, candidate);
-        if (distance < bestDistance && distance * 3 <= std::max(given.size(), candidate.size())) {
+        const std::size_t edits = distance(given, candidate);
+        if (edits < bestDistance && edits * 3 <= std::max(given.size(), candidate.size())) {
             best = candidate;
-            bestDistance = distance;
+            bestDistance = edits;
         }
     }
     return best;

@@ -122,7 +122,7 @@ Level parseLevel(const std::string& name, TomlTable table) {
         throw Error(level.place,
                     fmt::format("expected exactly one of \"ambient\", \"sky\" and "
                                 "\"environment\", found {}",
-                                constant + sky + image));
+                                constant + sky + image == 0 ? "none" : "several"));
     if (constant) {
         level.ambient = table.triple("ambient", 0, 1e3);
         level.background = table.triple("background", 0, 1, level.background);

@@ -214,13 +214,13 @@ void addCloth(Works& works) {
     const glm::mat4 across = glm::mat4(glm::mat3(glm::vec3(0, 1, 0), {-1, 0, 0}, {0, 0, 1}));
     int index = 0;
     for (const glm::mat4& place : bays(court, bay)) {
-        if (index % 2 == 0)
-            (index % 4 == 0 ? works.crimson : works.blue).add(curtain, place * at({0, 0.04F, -0.05F}));
-        if (index % 2 == 0)
+        if (index % 3 == 0) {
+            (index % 2 == 0 ? works.crimson : works.blue).add(curtain, place * at({0, 0.04F, -0.05F}));
             works.timber.add(rod, place * at({0, height, -0.05F}) * across);
+        }
         if (index % 3 == 1)
             (index % 2 == 0 ? works.crimson : works.blue)
-                .add(banner(1.0F, 0.6F, 2.4F, {0.54F, 0.85F}),
+                .add(banner(1.0F, 0.6F, 2.4F, {0.60F, 0.80F}),
                      place * at({0.75F, galleryFloor + rail + 0.01F, 0}));
         ++index;
     }

@@ -48,29 +48,31 @@ struct Leaf {
     float foot, height, reach, radius;
 };
 
-// Rises along the bell, then curls over; lobed edges and a raised midrib. `thickness` gives its back,
-// which is seen from above.
+// Rises along the bell, then rolls over outwards; lobed edges and a raised midrib. `thickness` gives
+// its back, which is seen from above.
 glm::vec3 leafPoint(const Leaf& leaf, glm::vec2 uv, float thickness) {
-    const float side = 2 * uv.x - 1, t = uv.y;
-    const float curl = std::max(0.0F, t - 0.62F) / 0.38F;
-    const float lobes = 1 + 0.16F * std::cos(glm::two_pi<float>() * 3 * t);
-    const float width = leaf.width * lobes * std::sqrt(std::max(0.04F, 1 - t * t)) *
-                        (0.75F + 0.25F * std::min(1.0F, 4 * t));
-    const float angle = glm::radians(leaf.turn) + 0.5F * width * side;
-    const float ridge = 0.06F * leaf.radius * (1 - std::abs(side));
-    const float inside = thickness * (1 - side * side);
-    const float out = leaf.radius + 0.25F * leaf.reach * t + leaf.reach * curl * curl + ridge -
-                      inside * (1 - curl);
-    const float y = leaf.foot + leaf.height * (t - 0.75F * curl * curl) + inside * curl;
+    const float side = 2 * uv.x - 1, bend = 0.66F;
+    const float t = 1 - std::pow(1 - uv.y, 1.5F); // more rows where it rolls over
+    const float roll = glm::radians(190.0F) * std::max(0.0F, t - bend) / (1 - bend);
+    const float tip = std::max(0.0F, t - 0.4F) / 0.6F;
+    const float narrow = std::sqrt(std::max(0.03F, 1 - tip * tip * tip));
+    const float lobes = 1 + 0.10F * std::cos(glm::two_pi<float>() * 3.5F * t);
+    const float angle = glm::radians(leaf.turn) + 0.5F * leaf.width * lobes * narrow * side;
+    const float dish = leaf.radius * (0.10F - 0.09F * std::abs(side) - 0.03F * side * side);
+    const float lift = dish - thickness * (1 - side * side);
+    const float out = leaf.radius + 0.3F * leaf.reach * std::min(t, bend) / bend +
+                      leaf.reach * (1 - std::cos(roll)) / 2 + lift * std::cos(roll);
+    const float y = leaf.foot + leaf.height * std::min(t, bend) +
+                    leaf.reach * std::sin(roll) / 2 - lift * std::sin(roll);
     return {out * std::sin(angle), y, out * std::cos(angle)};
 }
 
 Shape leafShape(const Leaf& leaf) {
-    const float thickness = 0.12F * leaf.radius;
+    const float thickness = 0.09F * leaf.radius;
     const glm::vec2 metres(leaf.width * leaf.radius, leaf.height);
-    Shape shape = patch([&](glm::vec2 uv) { return leafPoint(leaf, uv, 0); }, 6, 9, metres);
+    Shape shape = patch([&](glm::vec2 uv) { return leafPoint(leaf, uv, 0); }, 6, 11, metres);
     shape.add(patch([&](glm::vec2 uv) { return leafPoint(leaf, {1 - uv.x, uv.y}, thickness); }, 2,
-                    6, metres));
+                    8, metres));
     return shape;
 }
 
@@ -79,11 +81,11 @@ Shape leaves(float r) {
     Shape shape;
     for (int i = 0; i < 8; ++i) {
         const float turn = 45 * part(i, 1);
-        shape.add(leafShape({turn + 22.5F, 0.80F, 0, 0.75F * r, 0.30F * r, 1.00F * r * taper}));
-        shape.add(leafShape({turn, 0.74F, 0, 1.25F * r, 0.36F * r, 0.99F * r * taper}));
+        shape.add(leafShape({turn + 22.5F, 0.70F, 0, 1.05F * r, 0.26F * r, 1.00F * r * taper}));
+        shape.add(leafShape({turn, 0.60F, 0.3F * r, 1.30F * r, 0.30F * r, 1.00F * r * taper}));
     }
     for (int i = 0; i < 4; ++i)
-        shape.add(leafShape({90 * part(i, 1) + 45, 0.42F, 0.5F * r, 1.08F * r, 0.62F * r,
+        shape.add(leafShape({90 * part(i, 1) + 45, 0.36F, 0.7F * r, 0.86F * r, 0.58F * r,
                              1.08F * r * taper}));
     return shape;
 }
@@ -123,7 +125,7 @@ Shape grandCapital(float r, float top) {
 Shape grandColumn(float radius, float height) {
     const float foot = 0.42F * radius, base = foot + 0.9F * radius, top = 1.75F * radius;
     Shape shape = plinth(2.72F * radius, foot);
-    shape.add(lathe(atticBase(radius), 30), at({0, foot, 0}));
+    shape.add(lathe(atticBase(radius), 28), at({0, foot, 0}));
     shape.add(flutedShaft(radius, height - top - base, 20), at({0, base, 0}));
     shape.add(grandCapital(radius, top), at({0, height - top, 0}));
     return shape;
@@ -178,7 +180,7 @@ Shape baluster(float height) {
     addArc(outline, {0.04F * h, 0.74F * h}, 0.025F * h, -80, 80, 2);
     outline.insert(outline.end(), {{0.04F * h, 0.79F * h}, {0.06F * h, 0.87F * h},
                                    {0.085F * h, 0.90F * h}, {0.085F * h, 0.92F * h}});
-    shape.add(lathe(outline, 10));
+    shape.add(lathe(outline, 8));
     shape.add(plinth(0.18F * h, 0.08F * h), at({0, 0.92F * h, 0}));
     return shape;
 }

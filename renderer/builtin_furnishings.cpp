@@ -21,14 +21,14 @@ float smooth(float from, float to, float x) {
 glm::vec3 curtainPoint(float width, float height, glm::vec2 uv) {
     const float down = uv.y, tie = 0.55F;
     const float gathered = down < tie ? smooth(0, tie, down) : 1 - 0.55F * smooth(tie, 1, down);
-    const float across = width * (1 - 0.70F * gathered * (0.35F + 0.65F * smooth(0, 0.5F, down)));
+    const float across = width * (1 - 0.64F * gathered * (0.35F + 0.65F * smooth(0, 0.5F, down)));
     // Cloth keeps its length: where the panel is narrow its folds are deep.
     const float depth = 0.018F + 0.055F * (1 - across / width);
-    const float pleats = 5.5F, wave = glm::two_pi<float>() * pleats * uv.x;
+    const float pleats = 4.5F, wave = glm::two_pi<float>() * pleats * uv.x;
     const float drift = 0.9F * std::sin(3.1F * down + 4 * uv.x) + 0.4F * std::sin(7 * uv.x);
     const float sag = 0.35F * gathered * uv.x * uv.x * (down < tie ? 1 - down / tie : 0.0F);
     const float bulge = 0.09F * gathered * std::sin(glm::pi<float>() * uv.x);
-    return {across * uv.x + 0.012F * std::sin(2 * wave + drift),
+    return {across * (uv.x + 0.012F * std::sin(2 * wave + drift)),
             height * (1 - down) - sag * height * 0.12F,
             depth * std::sin(wave + drift) + 0.3F * depth * std::sin(1.6F * wave + 2 * drift) + bulge};
 }
@@ -39,7 +39,7 @@ Shape curtains(float width, float height) {
     const float half = 0.52F * width;
     // u runs against x, so that v, which runs down, leaves the outside towards +z.
     Shape panel = patch(
-        [=](glm::vec2 uv) { return curtainPoint(half, height, {1 - uv.x, uv.y}); }, 64, 28,
+        [=](glm::vec2 uv) { return curtainPoint(half, height, {1 - uv.x, uv.y}); }, 48, 48,
         {1.5F * half, 1});
     Shape shape;
     shape.add(panel, at({-width / 2, 0, 0}));

@@ -215,17 +215,19 @@ Painter timber() {
 
 Painter cloth(glm::vec3 colour, glm::vec3 trim) {
     return [colour, trim, noise = Noise("builtin/cloth")](glm::vec2 uv) {
-        // v runs from the rail to the hem; the figure is a diaper of quatrefoils.
-        const glm::vec2 tile = glm::fract(uv * glm::vec2(4, 8)) - 0.5F;
-        const glm::vec2 petal = glm::abs(glm::abs(tile) - 0.16F);
-        const float figure = ramp(0.03F, 0.06F, std::abs(glm::length(petal) - 0.13F));
+        // v runs from the rail to the hem; the figure is a net of lozenges with a star in each.
+        const glm::vec2 tile = glm::abs(glm::fract(uv * glm::vec2(6, 12)) - 0.5F);
+        const float net = ramp(0.05F, 0.03F, std::abs(tile.x + tile.y - 0.5F));
+        const float star = ramp(0.17F, 0.15F, std::sqrt(tile.x) * std::sqrt(tile.y) * 2 +
+                                                  glm::length(tile) * 0.6F);
+        const float figure = glm::max(net, star);
         const float hem = glm::max(ramp(0.018F, 0.014F, std::abs(uv.y - 0.955F)),
                                    ramp(0.006F, 0.004F, std::abs(uv.y - 0.915F)));
         const float thread = noise.value(uv * glm::vec2(256, 16), 256) +
                              noise.value(uv * glm::vec2(16, 256), 256);
         const float fade = noise.clouds(uv * 4.0F, 4, 4);
         Texel texel;
-        texel.colour = glm::mix(colour * (0.80F + 0.20F * figure), trim, hem);
+        texel.colour = glm::mix(glm::mix(colour, trim, 0.28F * figure), trim, hem);
         texel.colour *= 1 + 0.07F * thread + 0.15F * fade;
         texel.height = 0.0006F * thread + 0.001F * hem + 0.0006F * figure;
         return texel;

@@ -270,7 +270,7 @@ void mendNormals(Shape& shape) {
         }
     }
     for (std::size_t i = 0; i < wrong.size(); ++i)
-        if (wrong[i])
+        if (wrong[i] && glm::length(faces[i]) > 0)
             shape.vertices[i].normal = glm::normalize(faces[i]);
 }
 
@@ -287,51 +287,33 @@ void projectUv(Shape& shape) {
 
 namespace {
 
-// The chamfered box's vertex on face (axis, sign) nearest to the corner with the given signs.
-Vertex boxVertex(glm::vec3 size, float bevel, int axis, glm::vec3 corner) {
+// The box's 24 vertices: each face's own corners, drawn in by the chamfer. Bit i of `corner` says
+// on which side of axis i it lies.
+std::uint32_t boxVertex(int axis, unsigned corner) {
+    return static_cast<std::uint32_t>(axis) * 8 + corner;
+}
+
+Vertex chamferedCorner(glm::vec3 size, float bevel, int axis, unsigned corner) {
+    const glm::vec3 signs = glm::vec3(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U) * 2.0F - 1.0F;
     Vertex vertex;
-    vertex.position = corner * (size / 2.0F - bevel);
-    vertex.position[axis] = corner[axis] * size[axis] / 2.0F;
-    vertex.normal[axis] = corner[axis];
-    const int u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
-    vertex.uv = {vertex.position[u], -vertex.position[v]};
+    vertex.position = signs * (size / 2.0F - bevel);
+    vertex.position[axis] = signs[axis] * size[axis] / 2.0F;
+    vertex.normal[axis] = signs[axis];
+    vertex.uv = {vertex.position[axis == 0 ? 2 : 0], -vertex.position[axis == 1 ? 2 : 1]};
     return vertex;
 }
 
-// A convex polygon, turned so that it faces away from the box's centre.
-void addPolygon(Shape& shape, std::vector<Vertex> corners) {
-    const glm::vec3 a = corners[0].position;
-    const glm::vec3 normal = glm::cross(corners[1].position - a, corners[2].position - a);
-    if (glm::dot(normal, a) < 0)
-        std::reverse(corners.begin(), corners.end());
-    const auto first = static_cast<std::uint32_t>(shape.vertices.size());
-    shape.vertices.insert(shape.vertices.end(), corners.begin(), corners.end());
-    for (std::uint32_t i = 2; i < corners.size(); ++i)
-        shape.addTriangle(first, first + i - 1, first + i);
+// Turned so that it faces away from the box's centre.
+void addTriangle(Shape& shape, std::array<std::uint32_t, 3> corners) {
+    const auto position = [&](std::size_t i) { return shape.vertices[corners[i]].position; };
+    const glm::vec3 normal = glm::cross(position(1) - position(0), position(2) - position(0));
+    if (glm::dot(normal, position(0)) < 0)
+        std::swap(corners[1], corners[2]);
+    shape.addTriangle(corners[0], corners[1], corners[2]);
 }
-
-// The face, chamfers and corners that belong to one end of one axis.
-void addBoxEnd(Shape& shape, glm::vec3 size, float bevel, int axis, float sign) {
-    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    const auto corner = [&](float su, float sv) {
-        glm::vec3 signs(sign);
-        signs[u] = su;
-        signs[v] = sv;
-        return signs;
-    };
-    const auto vertex = [&](int face, glm::vec3 signs) {
-        return boxVertex(size, bevel, face, signs);
-    };
-    addPolygon(shape, {vertex(axis, corner(-1, -1)), vertex(axis, corner(1, -1)),
-                       vertex(axis, corner(1, 1)), vertex(axis, corner(-1, 1))});
-    for (const float side : {-1.0F, 1.0F}) // the chamfers towards axis u
-        addPolygon(shape, {vertex(axis, corner(side, -1)), vertex(axis, corner(side, 1)),
-                           vertex(u, corner(side, 1)), vertex(u, corner(side, -1))});
-    if (axis == 0)
-        for (const glm::vec2 signs : {glm::vec2(1, 1), {1, -1}, {-1, 1}, {-1, -1}})
-            addPolygon(shape, {vertex(0, corner(signs.x, signs.y)),
-                               vertex(1, corner(signs.x, signs.y)),
-                               vertex(2, corner(signs.x, signs.y))});
+void addSquare(Shape& shape, const std::array<std::uint32_t, 4>& corners) {
+    addTriangle(shape, {corners[0], corners[1], corners[2]});
+    addTriangle(shape, {corners[0], corners[2], corners[3]});
 }
 
 } // namespace
@@ -339,8 +321,21 @@ void addBoxEnd(Shape& shape, glm::vec3 size, float bevel, int axis, float sign) 
 Shape box(glm::vec3 size, float bevel) {
     Shape shape;
     for (int axis = 0; axis < 3; ++axis)
-        for (const float sign : {-1.0F, 1.0F})
-            addBoxEnd(shape, size, bevel, axis, sign);
+        for (unsigned corner = 0; corner < 8; ++corner)
+            shape.vertices.push_back(chamferedCorner(size, bevel, axis, corner));
+    for (int axis = 0; axis < 3; ++axis) {
+        const int next = (axis + 1) % 3;
+        const unsigned a = 1U << axis, b = 1U << next, c = 7U - a - b;
+        for (const unsigned end : {0U, a}) {
+            addSquare(shape, {boxVertex(axis, end), boxVertex(axis, end | b),
+                                boxVertex(axis, end | b | c), boxVertex(axis, end | c)});
+            for (const unsigned side : {0U, b})
+                addSquare(shape, {boxVertex(axis, end | side), boxVertex(axis, end | side | c),
+                                    boxVertex(next, end | side | c), boxVertex(next, end | side)});
+        }
+    }
+    for (unsigned corner = 0; corner < 8; ++corner)
+        addTriangle(shape, {boxVertex(0, corner), boxVertex(1, corner), boxVertex(2, corner)});
     return shape;
 }
 

@@ -87,6 +87,16 @@ TEST(Summary, SaysWhereOnlyTheApproximationRejects) {
                           "lenient here, one would add: 24 of 36 chose Crytek24 over Blizzard24"));
 }
 
+TEST(Summary, DoesNotTakeNoDifferenceForEquality) {
+    Findings findings = thesis();
+    for (Tally& tally : findings.tallies)
+        tally.votes = {18, 18};
+    EXPECT_THAT(joined(summaryOf(findings)),
+                HasSubstr("0 of 7 conditions differ from an even split at .05 (exact binomial "
+                          "test, uncorrected)."));
+    EXPECT_THAT(joined(summaryOf(findings)), HasSubstr("For all 7 the data do not decide:"));
+}
+
 TEST(Summary, WarnsOfRepeatedVotesAndNamesEmptyConditions) {
     const test::Folder folder;
     Findings findings = studied(folder, false);

@@ -95,6 +95,18 @@ void Desktop::click(int x, int y) {
     XSync(connection_->display, False);
 }
 
+void Desktop::takeFocus() {
+    int revertTo = 0;
+    XGetInputFocus(connection_->display, &focused_, &revertTo);
+    XSetInputFocus(connection_->display, None, RevertToNone, CurrentTime);
+    XSync(connection_->display, False);
+}
+
+void Desktop::returnFocus() {
+    XSetInputFocus(connection_->display, focused_, RevertToNone, CurrentTime);
+    XSync(connection_->display, False);
+}
+
 Image8 Desktop::look() const {
     Display* display = connection_->display;
     XImage* grab =

@@ -25,6 +25,10 @@ class Desktop {
     void type(const std::string& lettersAndDigits);
     void click(int x, int y);
 
+    // Gives the keyboard to no window, as when another program comes to the front, and back.
+    void takeFocus();
+    void returnFocus();
+
     Image8 look() const;                                       // the whole screen, RGB
     bool awaits(const Image8& expected, double seconds) const; // until the screen shows just that
 
@@ -36,6 +40,7 @@ class Desktop {
     pid_t server_ = 0;
     std::string name_;
     std::unique_ptr<Connection> connection_;
+    unsigned long focused_ = 0; // the window that takeFocus() took it from
 };
 
 } // namespace obscura::test

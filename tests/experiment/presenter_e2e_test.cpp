@@ -316,6 +316,33 @@ TEST_F(PresenterTest, EscapeAsksThenEndsKeepingRows) {
     EXPECT_THAT(journal("P01"), HasSubstr("left before the last trial"));
 }
 
+TEST_F(PresenterTest, LosingTheKeyboardMarksTheTrial) {
+    open({.mask = 0.3});
+    test::Desktop desktop(width, height);
+    Program program(desktop.name(), arguments({"--participant", "P01", "--windowed", "640x400"}),
+                    output);
+    begin(desktop);
+    startPair(desktop, 1);
+    ASSERT_TRUE(desktop.awaits(image(study.pair(0).a), patience));
+    desktop.takeFocus();
+    desktop.tap(XK_space); // goes nowhere
+    pause(0.3);
+    desktop.returnFocus();
+    EXPECT_TRUE(desktop.awaits(image(study.pair(0).a), 0));
+    desktop.tap(XK_space);
+    ASSERT_TRUE(desktop.awaits(image(study.pair(0).b), patience));
+    desktop.tap(XK_space);
+    ASSERT_TRUE(desktop.awaits(drawn(questionPage(texts)).image, patience));
+    desktop.tap(XK_1);
+    runPair(desktop, 2, XK_1);
+    ASSERT_TRUE(desktop.awaits(drawn(startPage(texts, 3, 7)).image, patience));
+
+    const auto answers = rows("P01");
+    ASSERT_EQ(answers.size(), 2u);
+    EXPECT_TRUE(answers[0].interrupted);
+    EXPECT_FALSE(answers[1].interrupted);
+}
+
 TEST_F(PresenterTest, AsksForTheParticipantOnScreen) {
     open({.mask = 0.3});
     writeFile(dataFolder().rows({"p01", 1, false}), responseHeader());

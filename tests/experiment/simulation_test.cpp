@@ -179,7 +179,7 @@ TEST_F(SimulationTest, AnotherProtocolThanTheStimuliWereMadeFromIsRefused) {
     std::ofstream(tiny.protocol, std::ios::app) << "# a remark\n";
     EXPECT_THAT([&] { openStudy(tiny.protocol, tiny.stimuli); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("made from another version of"),
-                                           HasSubstr("make them again: obscura-stimuli"))));
+                                           HasSubstr("make them: obscura-stimuli"))));
 }
 
 TEST_F(SimulationTest, AChangedImageIsRefused) {
@@ -191,6 +191,12 @@ TEST_F(SimulationTest, AChangedImageIsRefused) {
                                            HasSubstr("run obscura-stimuli again"))));
     EXPECT_THROW(loadStimulus(tiny.manifest, tiny.pair(2).b), Error);
     EXPECT_NO_THROW(loadStimulus(tiny.manifest, tiny.pair(2).a));
+}
+
+TEST_F(SimulationTest, AFolderWithoutStimuliIsRefused) {
+    const test::TinyStudy tiny = test::writeTinyStudy(folder.path());
+    EXPECT_THAT([&] { openStudy(tiny.protocol, folder.path()); },
+                ThrowsMessage<Error>(HasSubstr("found no manifest.json in it; make them: ")));
 }
 
 TEST_F(SimulationTest, AMissingPairIsRefused) {

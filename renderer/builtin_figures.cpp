@@ -1,0 +1,2 @@
+#include "renderer/builtin_scenes.h"
+namespace obscura::builtin { Scene figures() { return sculpture(); } }
