@@ -85,7 +85,7 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.footer(
         "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
         "end.\n"
-        "Example: obscura-experiment --protocol protocols/demo.toml --stimuli stimuli_out/demo");
+        "Example: obscura-experiment --protocol protocols/demo.toml --stimuli stimuli-demo");
 }
 
 int listMonitors() {

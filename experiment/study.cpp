@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string remedy(const fs::path& protocol, const fs::path& stimuli) {
-    return fmt::format("make them: obscura-stimuli --protocol {} --out {}", protocol.string(),
+    return fmt::format("make them: obscura-stimuli {} --out {}", protocol.string(),
                        stimuli.string());
 }
 

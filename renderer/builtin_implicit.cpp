@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <thread>
+#include <utility>
 
 namespace obscura::builtin {
 
@@ -50,7 +52,38 @@ glm::vec3 turned(glm::vec3 p, int axis, float degrees) {
 
 namespace {
 
-constexpr int block = 8; // cells; blocks that the surface cannot reach are not sampled
+// Work on item 0 ... count - 1, each of which stands alone.
+template <typename Work>
+void onBothCores(std::size_t count, const Work& work) {
+    const auto half = [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            work(i);
+    };
+    const std::jthread other(half, count / 2, count);
+    half(0, count / 2);
+}
+
+// In a crease finer than a cell the surface may fold back on itself: the vertices of a triangle that
+// faces against their normals move to the middle of their neighbours.
+void unfold(Shape& shape) {
+    std::vector<glm::vec4> sums(shape.vertices.size()); // of neighbours' positions, and their count
+    std::vector<std::uint32_t> folded;
+    for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
+        const std::array<std::uint32_t, 3> corners{shape.indices[i], shape.indices[i + 1],
+                                                   shape.indices[i + 2]};
+        const auto vertex = [&](std::size_t k) { return shape.vertices[corners[k % 3]]; };
+        const glm::vec3 face = glm::cross(vertex(1).position - vertex(0).position,
+                                          vertex(2).position - vertex(0).position);
+        for (std::size_t k = 0; k < 3; ++k)
+            sums[corners[k]] += glm::vec4(vertex(k + 1).position + vertex(k + 2).position, 2);
+        if (glm::dot(face, vertex(0).normal + vertex(1).normal + vertex(2).normal) <= 0)
+            folded.insert(folded.end(), corners.begin(), corners.end());
+    }
+    for (const std::uint32_t i : folded)
+        shape.vertices[i].position = glm::vec3(sums[i]) / sums[i].w;
+}
+
+constexpr int block = 4; // cells; blocks that the surface cannot reach are not sampled
 
 class Net {
   public:
@@ -60,10 +93,15 @@ class Net {
           values_(count(cells_ + 1)), vertexOf_(count(cells_)) {}
 
     Shape surface() {
-        sample();
+        findNear();
+        onBothCores(near_.size(), [this](std::size_t i) { sample(near_[i]); });
         forNear([&](glm::ivec3 cell) { addVertex(cell); });
+        onBothCores(shape_.vertices.size(), [this](std::size_t i) { settle(shape_.vertices[i]); });
         forNear([&](glm::ivec3 corner) { addFaces(corner); });
-        mendNormals(shape_);
+        for (int round = 0; round < 4; ++round) {
+            unfold(shape_);
+            mendNormals(shape_);
+        }
         return std::move(shape_);
     }
 
@@ -87,12 +125,17 @@ class Net {
     static std::size_t index(glm::ivec3 p, glm::ivec3 n) {
         return static_cast<std::size_t>((p.z * n.y + p.y) * n.x + p.x);
     }
+    // Of a block's samples; the last block of a row has its far side too.
+    glm::ivec3 end(glm::ivec3 low) const {
+        return low + block + glm::ivec3(glm::equal(low + block, cells_));
+    }
     glm::vec3 place(glm::ivec3 p) const { return low_ + cell_ * glm::vec3(p); }
     float value(glm::ivec3 p) const { return values_[index(p, cells_ + 1)]; }
 
-    void sample();
+    void findNear();
+    void sample(glm::ivec3 low);
     void addVertex(glm::ivec3 cell);
-    glm::vec3 settled(glm::vec3 p, glm::ivec3 cell) const;
+    void settle(Vertex& vertex) const;
     void addFaces(glm::ivec3 corner);
 
     const Field& field_;
@@ -105,28 +148,32 @@ class Net {
     Shape shape_;
 };
 
-void Net::sample() {
+// The rest of the box keeps the sign of its block's middle.
+void Net::findNear() {
     // Half a block's diagonal, with the third by which the field may exceed the distance.
     const float reach = 1.34F * 0.5F * static_cast<float>(block) * cell_ * std::sqrt(3.0F);
     forEach(glm::ivec3(0), cells_ / block, [&](glm::ivec3 b) {
         const glm::ivec3 low = b * block;
         const float middle = field_(place(low) + 0.5F * static_cast<float>(block) * cell_);
-        const bool far = std::abs(middle) > reach;
-        if (!far)
+        if (std::abs(middle) <= reach)
             near_.push_back(low);
-        // The last block of a row samples its far side too.
-        const glm::ivec3 high = low + block + glm::ivec3(glm::equal(low + block, cells_));
-        forEach(low, high, [&](glm::ivec3 p) {
-            values_[index(p, cells_ + 1)] = far ? middle : field_(place(p));
-        });
+        else
+            forEach(low, end(low), [&](glm::ivec3 p) { values_[index(p, cells_ + 1)] = middle; });
     });
 }
 
-// Onto the surface, as far as the cell allows.
-glm::vec3 Net::settled(glm::vec3 p, glm::ivec3 cell) const {
-    const glm::vec3 slope = gradient(field_, p, 0.1F * cell_);
-    const glm::vec3 moved = p - slope * field_(p) / std::max(glm::dot(slope, slope), 0.25F);
-    return glm::clamp(moved, place(cell) + 0.05F * cell_, place(cell) + 0.95F * cell_);
+void Net::sample(glm::ivec3 low) {
+    forEach(low, end(low), [&](glm::ivec3 p) { values_[index(p, cells_ + 1)] = field_(place(p)); });
+}
+
+// Onto the surface, as far as its cell allows.
+void Net::settle(Vertex& vertex) const {
+    const glm::vec3 cell = glm::floor((vertex.position - low_) / cell_);
+    const glm::vec3 slope = gradient(field_, vertex.position, 0.1F * cell_);
+    const glm::vec3 moved = vertex.position - slope * field_(vertex.position) /
+                                                  std::max(glm::dot(slope, slope), 0.25F);
+    vertex.position = glm::clamp(moved, low_ + cell_ * (cell + 0.05F), low_ + cell_ * (cell + 0.95F));
+    vertex.normal = glm::normalize(gradient(field_, vertex.position, 0.5F * cell_));
 }
 
 void Net::addVertex(glm::ivec3 cell) {
@@ -149,10 +196,7 @@ void Net::addVertex(glm::ivec3 cell) {
             crossings += 1;
         }
     vertexOf_[index(cell, cells_)] = static_cast<std::uint32_t>(shape_.vertices.size());
-    Vertex vertex;
-    vertex.position = settled(low_ + cell_ * sum / crossings, cell);
-    vertex.normal = glm::normalize(gradient(field_, vertex.position, 0.5F * cell_));
-    shape_.vertices.push_back(vertex);
+    shape_.vertices.push_back({low_ + cell_ * sum / crossings});
 }
 
 // The four cells round each edge that leaves `corner` upwards along an axis.

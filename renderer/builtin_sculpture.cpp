@@ -9,7 +9,7 @@ namespace obscura::builtin {
 
 namespace {
 
-constexpr float cell = 0.0055F; // of the surface net: a scale is five to six cells wide
+constexpr float cell = 0.0066F; // of the surface net: a scale is about five cells wide
 
 // Round the foot of the stone, up its side, in at the front of its hollow, out at the back, and
 // over its shoulder. The front is +z.
@@ -33,9 +33,12 @@ Serpent serpent() {
 float stone(glm::vec3 p) {
     const glm::vec3 q = p - glm::vec3(0, 0.37F, 0);
     float d = ellipsoid(q, {0.265F, 0.385F, 0.22F});
+    if (d > 0.06F)
+        return d;
     const float angle = std::atan2(q.x, q.z);
     const float wave = std::abs(std::sin(5.5F * angle + 5 * q.y));
-    d += 0.022F * (1 - std::sqrt(wave));
+    const float fade = std::min(1.0F, glm::length(glm::vec2(q.x, q.z)) / 0.13F); // towards the pole
+    d += 0.022F * fade * (1 - std::sqrt(wave));
     const glm::vec3 through = turned(q - glm::vec3(0.01F, 0.06F, 0), 1, 8);
     d = cut(d, 0.14F * (glm::length(glm::vec2(through.x / 0.135F, through.y / 0.165F)) - 1), 0.05F);
     const glm::vec3 crossing = turned(q - glm::vec3(0, -0.19F, 0), 2, 20);
@@ -58,7 +61,7 @@ Scene sculpture() {
     const Serpent animal = serpent();
     const Field field = [&](glm::vec3 p) {
         const float support = merge(stone(p), base(p), 0.03F);
-        return merge(support, animal.distance(p), 0.008F);
+        return std::max(merge(support, animal.distance(p), 0.008F), -p.y); // a flat foot
     };
     Shape shape = surfaceOf(field, {{-0.43F, -0.02F, -0.43F}, {0.43F, 1.25F, 0.43F}}, cell);
     Scene scene;

@@ -11,8 +11,8 @@ namespace obscura::builtin {
 
 namespace {
 
-constexpr int perJoint = 14; // rings between two joints
-constexpr std::size_t perRun = 10;
+constexpr int perJoint = 8; // rings between two joints
+constexpr std::size_t perRun = 6;
 constexpr float headScale = 1.25F;
 
 // Catmull and Rom 1974, through b and c.
@@ -70,7 +70,8 @@ void Serpent::turnBacks() {
 void Serpent::groupRuns() {
     for (std::size_t first = 0; first + 1 < rings_.size(); first += perRun) {
         const std::size_t last = std::min(first + perRun, rings_.size() - 1);
-        Run run{first, last, rings_[(first + last) / 2].centre, 0};
+        const Ring& middle = rings_[(first + last) / 2];
+        Run run{first, last, middle.centre, 0, middle.radius};
         for (std::size_t i = first; i <= last; ++i)
             run.radius = std::max(run.radius, glm::distance(run.centre, rings_[i].centre) +
                                                   rings_[i].radius);
@@ -90,13 +91,13 @@ float scales(float along, float around) {
 
 float plates(float along) {
     const float t = glm::fract(along / 0.45F);
-    return 0.75F * std::sqrt(std::max(0.0F, 1 - t * t)) + 0.1F;
+    return 0.85F * std::sqrt(std::max(0.0F, 1 - std::pow(std::abs(1.7F * t - 0.7F), 3.0F)));
 }
 
 // How far the skin stands out, in radii. `around`: 0 on the back, pi on the belly.
 float skin(float along, float around) {
     const float belly = glm::smoothstep(2.05F, 2.25F, std::abs(around));
-    const float seam = 0.25F * std::exp(-300 * (std::abs(around) - 2.15F) * (std::abs(around) - 2.15F));
+    const float seam = 0.25F * std::exp(-70 * (std::abs(around) - 2.15F) * (std::abs(around) - 2.15F));
     return 0.17F * (glm::mix(scales(along, around), plates(along), belly) - 0.7F) - seam * 0.5F;
 }
 
@@ -104,16 +105,19 @@ float skin(float along, float around) {
 float crest(float along, float side, float up) {
     const float t = glm::fract((along + 0.8F * (up - 1)) / 1.15F);
     const float height = 1.05F + 0.62F * std::pow(1 - std::abs(2 * t - 1), 1.3F);
-    return std::max({std::abs(side) - 0.26F + 0.30F * std::max(0.0F, up - 0.9F), up - height, -up});
+    // 0.55: a thorn's slope makes the next one nearer than it seems from above.
+    return std::max({std::abs(side) - 0.26F + 0.30F * std::max(0.0F, up - 0.9F),
+                     0.55F * (up - height), -up});
 }
 
 } // namespace
 
-float Serpent::distance(glm::vec3 p) const {
-    float best = 1e9F, where = 0;
-    std::size_t nearest = 0;
+Serpent::Nearest Serpent::nearest(glm::vec3 p) const {
+    Nearest best;
+    for (const Run& run : runs_) // a first guess, to pass over most runs below
+        best.distance = std::min(best.distance, glm::distance(p, run.centre) - run.least + 1e-5F);
     for (const Run& run : runs_) {
-        if (glm::distance(p, run.centre) - run.radius > best)
+        if (glm::distance(p, run.centre) - run.radius > best.distance)
             continue;
         for (std::size_t i = run.first; i < run.last; ++i) {
             const glm::vec3 axis = rings_[i + 1].centre - rings_[i].centre;
@@ -121,15 +125,18 @@ float Serpent::distance(glm::vec3 p) const {
                 glm::dot(p - rings_[i].centre, axis) / glm::dot(axis, axis), 0.0F, 1.0F);
             const float d = glm::distance(p, rings_[i].centre + t * axis) -
                             glm::mix(rings_[i].radius, rings_[i + 1].radius, t);
-            if (d < best) {
-                best = d;
-                nearest = i;
-                where = t;
-            }
+            if (d <= best.distance)
+                best = {d, i, t};
         }
     }
-    const Ring &a = rings_[nearest], &b = rings_[nearest + 1];
-    const float radius = glm::mix(a.radius, b.radius, where);
+    return best;
+}
+
+float Serpent::distance(glm::vec3 p) const {
+    const Nearest found = nearest(p);
+    float best = found.distance;
+    const Ring &a = rings_[found.ring], &b = rings_[found.ring + 1];
+    const float where = found.t, radius = glm::mix(a.radius, b.radius, where);
     if (best < 1.2F * radius) {
         const float along = glm::mix(a.along, b.along, where);
         const glm::vec3 back = glm::normalize(glm::mix(a.back, b.back, where));
@@ -191,7 +198,7 @@ float horns(glm::vec3 p) {
 
 float Serpent::head(glm::vec3 p) const {
     glm::vec3 q = headFromWorld_ * (p - rings_.back().centre) / headScale;
-    const float far = glm::distance(q, {0, 0, 0.02F}) - 0.21F;
+    const float far = glm::distance(q, {0, 0, 0}) - 0.25F;
     if (far > 0.05F)
         return far * headScale;
     q.x = std::abs(q.x);

@@ -30,8 +30,14 @@ class Serpent {
     struct Run {
         std::size_t first, last;
         glm::vec3 centre;
-        float radius;
+        float radius, least; // of the ball; of the body at its centre
     };
+    struct Nearest {
+        float distance = 1e9F; // to the body without its skin
+        std::size_t ring = 0;
+        float t = 0; // from that ring towards the next
+    };
+    Nearest nearest(glm::vec3 p) const;
     void turnBacks();
     void groupRuns();
     float head(glm::vec3 p) const;

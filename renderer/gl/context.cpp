@@ -126,7 +126,9 @@ void collectMessages() {
     messages().clear();
     glEnable(GL_DEBUG_OUTPUT);
     glDebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_FALSE);
-    glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr, GL_TRUE);
+    // Not the shader compiler's: program.cpp reports those itself.
+    glDebugMessageControl(GL_DEBUG_SOURCE_API, GL_DEBUG_TYPE_ERROR, GL_DONT_CARE, 0, nullptr,
+                          GL_TRUE);
     glDebugMessageCallback(storeMessage, nullptr);
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -21,9 +22,10 @@ using testing::ElementsAre;
 class Responses : public testing::Test {
   protected:
     Responses() {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+        std::replace(test.begin(), test.end(), '/', '-');
         path_ = std::filesystem::temp_directory_path() /
-                fmt::format("obscura-{}-{}.csv", test->name(), ::getpid());
+                fmt::format("obscura-{}-{}.csv", test, ::getpid());
     }
     ~Responses() override { std::filesystem::remove(path_); }
 

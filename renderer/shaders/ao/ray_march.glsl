@@ -3,7 +3,7 @@
 // so that nearer blockers are found than the end point alone would meet.
 //
 // Limits: a plane seen face-on is open. On the 45-degree groove of blizzard.glsl, with a
-// fullOcclusion near 0, the first step already stops: visibility is the mean of
+// fullOcclusion of 0, the first step already stops: visibility is the mean of
 // accessibility(|x| / steps).
 
 #include "accessibility.glsl"
@@ -25,11 +25,12 @@ vec4 gather(ivec2 pixel) {
         vec3 stride = hemisphereOffset(points[i].xyz, mirror, normal) *
                       (settings.radius / float(steps));
         vec3 point = position;
-        float nearer = 0.0;
-        for (int j = 0; j < steps && nearer < settings.fullOcclusion; ++j) {
+        float nearer;
+        int walked = 0;
+        do {
             point += stride;
             nearer = max(depth - depthAt(uvFromView(point)), 0.0) / settings.radius;
-        }
+        } while (++walked < steps && nearer < settings.fullOcclusion);
         sum += accessibility(nearer);
     }
     return vec4(sum / float(count));

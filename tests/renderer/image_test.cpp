@@ -1,0 +1,81 @@
+#include "renderer/image.h"
+
+#include "protocols/error.h"
+#include "protocols/files.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path file(const std::string& name) { return fs::path(testing::TempDir()) / name; }
+
+// IEC 61966-2-1: anchors of the curve.
+TEST(Srgb, HasTheStandardsValues) {
+    EXPECT_FLOAT_EQ(srgbFromLinear(0), 0);
+    EXPECT_FLOAT_EQ(srgbFromLinear(1), 1);
+    EXPECT_NEAR(srgbFromLinear(0.21586f) * 255, 128, 0.01f); // the mid-grey of the presenter
+    EXPECT_NEAR(linearFromSrgb(0.04045f), 0.0031308f, 1e-6f);
+    for (int code = 0; code < 256; ++code)
+        EXPECT_NEAR(srgbFromLinear(linearFromSrgb(static_cast<float>(code) / 255)) * 255,
+                    static_cast<float>(code), 1e-3f);
+}
+
+TEST(ImageFiles, PngKeepsEveryCodeValue) {
+    Image8 image{16, 16, 3, {}};
+    for (int i = 0; i < 16 * 16 * 3; ++i)
+        image.pixels.push_back(static_cast<std::uint8_t>(i % 256));
+    writePng(file("codes.png"), image);
+    const Image8 read = readImage8(file("codes.png"));
+    EXPECT_EQ(read.pixels, image.pixels);
+    EXPECT_EQ(read.channels, 3);
+}
+
+TEST(ImageFiles, PngHasTheSameBytesEachTime) {
+    const Image8 image{8, 8, 1, std::vector<std::uint8_t>(64, 77)};
+    writePng(file("first.png"), image);
+    writePng(file("second.png"), image);
+    EXPECT_EQ(readFile(file("first.png")), readFile(file("second.png")));
+}
+
+TEST(ImageFiles, ExrKeepsFloats) {
+    Image image{4, 2, 1, {0, 1e-6f, 0.5f, 1, 2, 1000, 0.1f, 3.14159265f}};
+    writeExr(file("floats.exr"), image, std::array{std::string("V")}, true);
+    EXPECT_EQ(readImage(file("floats.exr")).pixels, image.pixels);
+}
+
+TEST(ImageFiles, GreyFillsColourAndAlphaIsOpaque) {
+    writePng(file("grey.png"), Image8{1, 1, 1, {9}});
+    EXPECT_EQ(readImage8(file("grey.png"), 4).pixels, (std::vector<std::uint8_t>{9, 9, 9, 255}));
+}
+
+TEST(ImageFiles, AnErrorNamesTheFile) {
+    writeFile(file("not.png"), "this is text");
+    for (const char* name : {"not.png", "absent.png"})
+        try {
+            readImage8(file(name));
+            FAIL() << name;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+        }
+}
+
+TEST(Comparison, MeasuresShiftsAndCountsNan) {
+    const Image a{2, 1, 1, {0.5f, 0.5f}}, b{2, 1, 1, {0.6f, 0.6f}};
+    const Difference difference = compare(a, b, 0.05);
+    EXPECT_NEAR(difference.mean, 0.1, 1e-6); // a standard deviation would be blind to this
+    EXPECT_NEAR(difference.rms, 0.1, 1e-6);
+    EXPECT_EQ(difference.share, 1);
+    const Image broken{2, 1, 1, {0.5f, std::numeric_limits<float>::quiet_NaN()}};
+    EXPECT_EQ(compare(a, broken, 10).share, 0.5);
+}
+
+} // namespace
+} // namespace obscura

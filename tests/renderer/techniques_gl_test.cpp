@@ -1,0 +1,239 @@
+// What must hold for every row of the technique table.
+#include "tests/renderer/occlusion_fixture.h"
+
+#include "protocols/error.h"
+#include "renderer/render.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+namespace obscura {
+namespace {
+
+// A floor, a wall behind, and a block standing free on the floor; everything `scale` times as
+// large.
+Scene blockScene(float scale) {
+    Scene scene;
+    const auto quad = [&](std::array<glm::vec3, 4> corners) {
+        for (glm::vec3& corner : corners)
+            corner *= scale;
+        addQuad(scene, corners);
+    };
+    quad({glm::vec3(-4, 0, 4), glm::vec3(4, 0, 4), glm::vec3(4, 0, -2), glm::vec3(-4, 0, -2)});
+    quad({glm::vec3(-4, 0, -2), glm::vec3(4, 0, -2), glm::vec3(4, 5, -2), glm::vec3(-4, 5, -2)});
+    const float a = -0.6f, b = 0.6f;
+    quad({glm::vec3(a, 0, b), glm::vec3(b, 0, b), glm::vec3(b, 1, b), glm::vec3(a, 1, b)});
+    quad({glm::vec3(b, 0, b), glm::vec3(b, 0, a), glm::vec3(b, 1, a), glm::vec3(b, 1, b)});
+    quad({glm::vec3(a, 0, a), glm::vec3(a, 0, b), glm::vec3(a, 1, b), glm::vec3(a, 1, a)});
+    quad({glm::vec3(a, 1, b), glm::vec3(b, 1, b), glm::vec3(b, 1, a), glm::vec3(a, 1, a)});
+    return scene;
+}
+
+Camera cameraAt(double scale) {
+    Camera camera;
+    camera.position = {2.0 * scale, 2.5 * scale, 4.0 * scale};
+    camera.target = {0, 0.6 * scale, 0};
+    camera.near = 0.05 * scale;
+    return camera;
+}
+
+double meanOf(const Image& image) {
+    return std::accumulate(image.pixels.begin(), image.pixels.end(), 0.0) /
+           static_cast<double>(image.pixels.size());
+}
+
+// Whole-number settings stay affordable.
+double affordable(const Parameter& parameter, float value) {
+    return parameter.unit == Unit::count ? std::min(value, 64.0f) : value;
+}
+
+class EveryTechnique : public GlTest, public testing::WithParamInterface<const Technique*> {
+  protected:
+    Settings defaults() const { return Settings(*GetParam()); }
+    static Image picture(const Settings& settings, std::uint64_t seed = 1) {
+        return visibilityOf(blockScene(1), cameraAt(1), settings, 96, 64, seed);
+    }
+    static void expectVisibility(const Image& image, const std::string& what) {
+        for (const float value : image.pixels)
+            ASSERT_TRUE(value >= 0 && value <= 1) << what << ": " << value; // false for NaN
+    }
+};
+
+TEST_P(EveryTechnique, GivesVisibilityAlsoAtExtremeSettings) {
+    expectVisibility(picture(defaults()), "defaults");
+    for (const Parameter& parameter : GetParam()->parameters)
+        for (const float value : {parameter.low, parameter.high}) {
+            Settings settings = defaults();
+            settings.set(parameter.name, affordable(parameter, value));
+            expectVisibility(picture(settings),
+                             std::string(parameter.name) + " = " + std::to_string(value));
+        }
+}
+
+TEST_P(EveryTechnique, AnEmptyViewIsOpen) {
+    Camera away = cameraAt(1);
+    away.target = {2, 30, 4.1};
+    for (const float value : visibilityOf(blockScene(1), away, defaults(), 32, 32).pixels)
+        ASSERT_EQ(value, 1.0f);
+}
+
+TEST_P(EveryTechnique, AWallFaceOnReadsWhatItsPaperSays) {
+    Scene scene;
+    addQuad(scene, {glm::vec3(-50, -50, 0), glm::vec3(50, -50, 0), glm::vec3(50, 50, 0),
+                    glm::vec3(-50, 50, 0)});
+    Camera camera;
+    camera.position = {0, 0, 5};
+    const float expected = GetParam()->id == "crytek" ? 0.75f : 1.0f;
+    for (const float value : visibilityOf(scene, camera, defaults(), 64, 64).pixels)
+        ASSERT_NEAR(value, expected, 2e-3f);
+}
+
+TEST_P(EveryTechnique, SceneCameraAndRadiusScaleTogether) {
+    const Image base = picture(defaults());
+    for (const float scale : {0.01f, 100.0f}) {
+        Settings settings = defaults();
+        for (const Parameter& parameter : GetParam()->parameters)
+            if (parameter.unit == Unit::metre)
+                settings.set(parameter.name, static_cast<double>(parameter.value * scale));
+        const Image scaled =
+            visibilityOf(blockScene(scale), cameraAt(static_cast<double>(scale)), settings, 96, 64);
+        const Difference difference = compare(base, scaled, 0.02);
+        EXPECT_LT(difference.rms, 0.01) << scale; // rounding moves single taps across an edge
+        EXPECT_LT(std::abs(difference.mean), 1e-3) << scale;
+        EXPECT_LT(difference.share, 0.01) << scale;
+    }
+}
+
+TEST_P(EveryTechnique, TheSameSeedGivesTheSameBytes) {
+    EXPECT_EQ(picture(defaults()).pixels, picture(defaults()).pixels);
+}
+
+TEST_P(EveryTechnique, EverySettingChangesThePicture) {
+    const Image base = picture(defaults());
+    for (const Parameter& parameter : GetParam()->parameters) {
+        double largest = 0;
+        for (const float value : {parameter.low, parameter.high}) {
+            Settings settings = defaults();
+            settings.set(parameter.name, affordable(parameter, value));
+            largest = std::max(largest, compare(base, picture(settings)).largest);
+        }
+        EXPECT_GT(largest, 1e-3) << parameter.name;
+    }
+}
+
+TEST_P(EveryTechnique, RefusesWhatIsOutsideItsRanges) {
+    for (const Parameter& parameter : GetParam()->parameters) {
+        Settings settings = defaults();
+        EXPECT_THROW(settings.set(parameter.name, parameter.low - 1), Error) << parameter.name;
+        EXPECT_THROW(settings.set(parameter.name, static_cast<double>(parameter.high) * 1.001 + 1),
+                     Error)
+            << parameter.name;
+        EXPECT_THROW(settings.set(parameter.name, std::nan("")), Error) << parameter.name;
+    }
+}
+
+TEST_P(EveryTechnique, SurvivesOddTargetsAndACameraInsideAWall) {
+    expectVisibility(visibilityOf(blockScene(1), cameraAt(1), defaults(), 1, 1), "1 x 1");
+    expectVisibility(visibilityOf(blockScene(1), cameraAt(1), defaults(), 8192, 2), "8192 x 2");
+    Camera inside = cameraAt(1);
+    inside.position = {0, 0.5, 0.59};
+    inside.target = {0, 0.5, -5};
+    expectVisibility(visibilityOf(blockScene(1), inside, defaults(), 32, 32), "inside");
+}
+
+std::vector<const Technique*> allTechniques() {
+    std::vector<const Technique*> result;
+    for (const Technique& row : techniques())
+        result.push_back(&row);
+    return result;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(allTechniques()),
+                         [](const auto& test) { return std::string(test.param->id); });
+
+// Faults that the thesis shows in its figure 17, and which a faithful implementation has.
+
+class KnownFaults : public GlTest {};
+
+// A block ten radii in front of a wall: Crytek darkens the wall around its silhouette, although
+// nothing occludes it; the corrected curve does not.
+TEST_F(KnownFaults, CrytekDarkensFarWallsBehindNearThings) {
+    Scene scene;
+    addQuad(scene, {glm::vec3(-20, -20, 0), glm::vec3(20, -20, 0), glm::vec3(20, 20, 0),
+                    glm::vec3(-20, 20, 0)});
+    addQuad(scene, {glm::vec3(-1, -1, 5), glm::vec3(1, -1, 5), glm::vec3(1, 1, 5),
+                    glm::vec3(-1, 1, 5)});
+    Camera camera;
+    camera.position = {0, 0, 12};
+    const auto beside = [&](const char* id) {
+        Settings settings(technique(id));
+        const Image image = visibilityOf(scene, camera, settings, 128, 128);
+        // The silhouette ends within column 83 of 128, and the radius is 6 pixels on the wall, whose
+        // own value is far from the block.
+        return static_cast<double>(image.at(14, 14, 0) - image.at(85, 64, 0));
+    };
+    EXPECT_GT(beside("crytek"), 0.08);
+    EXPECT_LT(beside("blizzard_corrected"), 0.01);
+}
+
+TEST_F(KnownFaults, CrytekBrightensConvexEdges) {
+    const Image image = visibilityOf(blockScene(1), cameraAt(1), Settings(technique("crytek")), 192,
+                                     128);
+    EXPECT_GT(*std::max_element(image.pixels.begin(), image.pixels.end()), 0.95f);
+    EXPECT_LT(meanOf(image), 0.78);
+}
+
+// The block that C++ and every shader read.
+TEST_F(KnownFaults, FrameBlockHasTheSameOffsetsInBothLanguages) {
+    gl::ShaderText vertex = shaderText("screen.vert"), fragment = shaderText("composite.frag");
+    fragment.add("float all() { return frame.viewFromWorld[0].x + frame.worldFromView[0].x + "
+                 "frame.clipFromView[0].x + frame.viewFromUv.x + frame.size.x + frame.depth.x + "
+                 "float(frame.seed.x); }",
+                 "(test)");
+    const gl::Program program("offsets", vertex, fragment);
+    program.use();
+    GLint name = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &name);
+    const struct {
+        const char* member;
+        std::size_t offset;
+    } members[] = {{"viewFromWorld", offsetof(Frame, viewFromWorld)},
+                   {"worldFromView", offsetof(Frame, worldFromView)},
+                   {"clipFromView", offsetof(Frame, clipFromView)},
+                   {"viewFromUv", offsetof(Frame, viewFromUv)},
+                   {"size", offsetof(Frame, size)},
+                   {"depth", offsetof(Frame, depth)},
+                   {"seed", offsetof(Frame, seed)}};
+    for (const auto& [member, offset] : members) {
+        const std::string full = std::string("FrameBlock.frame.") + member;
+        const std::string plain = std::string("frame.") + member;
+        GLint found = -1;
+        for (const std::string& spelt : {full, plain}) {
+            const char* text = spelt.c_str();
+            GLuint index = GL_INVALID_INDEX;
+            glGetUniformIndices(static_cast<GLuint>(name), 1, &text, &index);
+            if (index != GL_INVALID_INDEX)
+                glGetActiveUniformsiv(static_cast<GLuint>(name), 1, &index, GL_UNIFORM_OFFSET,
+                                      &found);
+        }
+        EXPECT_EQ(found, static_cast<GLint>(offset)) << member;
+    }
+}
+
+TEST_F(KnownFaults, AShaderThatDoesNotCompileNamesFileAndLine) {
+    gl::ShaderText fragment;
+    fragment.addFile(shaderFolder(), "frame.h");
+    fragment.add("void fine() {}\nvoid main() {\n    float x = nonsense;\n}\n", "broken.glsl", 10);
+    try {
+        gl::Program("broken", shaderText("screen.vert"), fragment);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("broken.glsl:12"), std::string::npos)
+            << error.what();
+    }
+}
+
+} // namespace
+} // namespace obscura
