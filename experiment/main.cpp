@@ -23,7 +23,7 @@ struct Arguments {
     std::string participant;
     int session = 1;
     int monitor = 1;
-    std::string windowSize = "1280x800"; // with --windowed
+    std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, acceptUntimed = false, listMonitors = false;
     bool simulate = false;
     int simulated = 0; // how many; 0 as the protocol plans
@@ -130,18 +130,21 @@ int simulate(const Arguments& arguments, const Study& study) {
     return 0;
 }
 
-gl::WindowOptions windowOptions(const Arguments& arguments) {
-    gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt};
-    if (!arguments.windowed)
-        return options;
+gl::WindowOptions::Size parseSize(const std::string& text) {
     gl::WindowOptions::Size size{};
     int read = 0;
-    if (std::sscanf(arguments.windowSize.c_str(), "%dx%d%n", &size.width, &size.height, &read) !=
-            2 ||
-        read != static_cast<int>(arguments.windowSize.size()) || size.width < 1 || size.height < 1)
-        throw Error(fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"",
-                                arguments.windowSize));
-    options.windowed = size;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &size.width, &size.height, &read) != 2 ||
+        read != static_cast<int>(text.size()) || size.width < 1 || size.height < 1)
+        throw Error(
+            fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"", text));
+    return size;
+}
+
+gl::WindowOptions windowOptions(const Arguments& arguments) {
+    gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt};
+    if (arguments.windowed)
+        options.windowed = arguments.windowSize.empty() ? gl::WindowOptions::Size{1280, 800}
+                                                        : parseSize(arguments.windowSize);
     return options;
 }
 

@@ -174,9 +174,9 @@ Level readLevel(const Node& node) {
     if (node.has("environment"))
         node["environment"].read(level.environment);
     if (node.has("sun"))
-        level.sun = Sun{node["sun"]["azimuthDegrees"].as<double>(),
-                        node["sun"]["elevationDegrees"].as<double>(),
-                        node["sun"]["irradiance"].as<Vec3>()};
+        level.sun =
+            Sun{node["sun"]["azimuthDegrees"].as<double>(),
+                node["sun"]["elevationDegrees"].as<double>(), node["sun"]["irradiance"].as<Vec3>()};
     return level;
 }
 

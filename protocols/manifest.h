@@ -17,10 +17,10 @@ struct Recipe {
     View view;
     std::string sceneSha256; // of the scene's files; of its name and program version when built in
     Level level;
-    std::string environmentSha256; // "" without an environment image
-    std::string technique;         // id in the technique table
+    std::string environmentSha256;          // "" without an environment image
+    std::string technique;                  // id in the technique table
     std::map<std::string, double> settings; // every parameter, defaults filled in, radius in metres
-    std::string shaderSha256; // of the text of every shader that made the image
+    std::string shaderSha256;               // of the text of every shader that made the image
     std::string programVersion;
     std::string glVendor, glRenderer, glVersion;
 
@@ -36,7 +36,8 @@ struct FileRecord {
 struct ImageRecord {
     std::string name; // of the technique setting: "blizzard24"
     Recipe recipe;
-    std::string inputsSha256; // of the G-buffer and light buffers of every jittered frame, before AO
+    std::string
+        inputsSha256; // of the G-buffer and light buffers of every jittered frame, before AO
     double meanOcclusion = 0; // 1 - visibility, averaged over the pixels that show a surface
     FileRecord image;         // 8-bit sRGB PNG
     std::map<std::string, FileRecord> layers; // "ao" always; "linear", "albedo", ... on request

@@ -1,11 +1,10 @@
 #include "protocols/progress.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
-
-#include <unistd.h>
 
 namespace obscura {
 
@@ -45,8 +44,8 @@ void Progress::print(double done, const std::string& note, bool last) {
     const int filled = static_cast<int>(share * width);
     const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
                             std::string(static_cast<std::size_t>(width - filled), '.');
-    fmt::print(stderr, "{}{:<22} [{}] {:3.0f} %  {}  {}{}", terminal_ ? "\r\x1b[K" : "", label_, bar,
-               share * 100, time, note, terminal_ && !last ? "" : "\n");
+    fmt::print(stderr, "{}{:<22} [{}] {:3.0f} %  {}  {}{}", terminal_ ? "\r\x1b[K" : "", label_,
+               bar, share * 100, time, note, terminal_ && !last ? "" : "\n");
     std::fflush(stderr);
 }
 

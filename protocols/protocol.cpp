@@ -69,8 +69,8 @@ Camera parseCamera(TomlTable table) {
 
     const Vec3 &p = camera.position, &t = camera.target, &u = camera.up;
     const Vec3 d{t[0] - p[0], t[1] - p[1], t[2] - p[2]};
-    const double sine = std::hypot(d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2],
-                                   d[0] * u[1] - d[1] * u[0]);
+    const double sine =
+        std::hypot(d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]);
     if (!(sine > 1e-6 * std::hypot(d[0], d[1], d[2])))
         throw Error(table.place(), "expected a target apart from the position and a view direction "
                                    "that is not along \"up\"");
@@ -119,10 +119,9 @@ Level parseLevel(const std::string& name, TomlTable table) {
     const bool constant = table.has("ambient"), sky = table.has("sky"),
                image = table.has("environment");
     if (constant + sky + image != 1)
-        throw Error(level.place,
-                    fmt::format("expected exactly one of \"ambient\", \"sky\" and "
-                                "\"environment\", found {}",
-                                constant + sky + image == 0 ? "none" : "several"));
+        throw Error(level.place, fmt::format("expected exactly one of \"ambient\", \"sky\" and "
+                                             "\"environment\", found {}",
+                                             constant + sky + image == 0 ? "none" : "several"));
     if (constant) {
         level.ambient = table.triple("ambient", 0, 1e3);
         level.background = table.triple("background", 0, 1, level.background);
@@ -154,9 +153,9 @@ TechniqueSetting parseTechnique(const std::string& name, TomlTable table) {
             continue;
         const std::string keyName(key.str());
         if (!value.is_number() && !value.is_boolean())
-            throw Error(table.placeOf(value, table.pathOf(keyName)),
-                        fmt::format("expected a number, true or false, found {}",
-                                    TomlTable::spell(value)));
+            throw Error(
+                table.placeOf(value, table.pathOf(keyName)),
+                fmt::format("expected a number, true or false, found {}", TomlTable::spell(value)));
         const double number =
             value.is_boolean() ? (*value.value<bool>() ? 1.0 : 0.0) : *value.value<double>();
         setting.settings.push_back({keyName, number, table.placeOf(keyName)});
@@ -209,11 +208,11 @@ void checkPair(const Condition& condition, const Protocol& protocol, const Place
     const double common = protocol.view(condition.view).radius;
     const double radiusA = ownRadius(a).value_or(common), radiusB = ownRadius(b).value_or(common);
     if (radiusA != radiusB)
-        throw Error(place,
-                    fmt::format("the members of a pair may differ only in the technique; \"{}\" has "
-                                "radius {} m, \"{}\" {} m. Give both the same, or none, and the "
-                                "scene's radius is used",
-                                a.name, radiusA, b.name, radiusB));
+        throw Error(
+            place, fmt::format("the members of a pair may differ only in the technique; \"{}\" has "
+                               "radius {} m, \"{}\" {} m. Give both the same, or none, and the "
+                               "scene's radius is used",
+                               a.name, radiusA, b.name, radiusB));
 }
 
 Condition parseCondition(TomlTable table, const Protocol& protocol) {

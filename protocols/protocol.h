@@ -18,11 +18,11 @@ namespace obscura {
 using Vec3 = std::array<double, 3>;
 
 struct Camera {
-    Vec3 position{};          // metres of the scene, y up
-    Vec3 target{};            // the point looked at; its distance is the focus distance
-    Vec3 up{0, 1, 0};         //
-    double fovDegrees = 50;   // vertical, 1 ... 120
-    double near = 0.05;       // metres
+    Vec3 position{};        // metres of the scene, y up
+    Vec3 target{};          // the point looked at; its distance is the focus distance
+    Vec3 up{0, 1, 0};       //
+    double fovDegrees = 50; // vertical, 1 ... 120
+    double near = 0.05;     // metres
 };
 
 // A scene seen from one camera.
@@ -55,14 +55,14 @@ enum class Curve { clamp, reinhard };
 // background; a sky; an environment image. The sun may be added to any of them.
 struct Level {
     std::string name;
-    std::optional<Vec3> ambient;    // constant light from everywhere
-    Vec3 background{1, 1, 1};       // seen where no surface is; only with `ambient`
+    std::optional<Vec3> ambient; // constant light from everywhere
+    Vec3 background{1, 1, 1};    // seen where no surface is; only with `ambient`
     std::optional<Sky> sky;
-    std::string environment;        // equirectangular HDR image, relative to the protocol's folder
+    std::string environment; // equirectangular HDR image, relative to the protocol's folder
     std::optional<Sun> sun;
-    Curve curve = Curve::reinhard;  // display curve
-    double white = 4;               // the luminance that Reinhard's curve maps to display white
-    bool occludeDirect = false;     // occlude the sun's light as well
+    Curve curve = Curve::reinhard; // display curve
+    double white = 4;              // the luminance that Reinhard's curve maps to display white
+    bool occludeDirect = false;    // occlude the sun's light as well
     Place place;
 };
 
@@ -99,9 +99,9 @@ struct Condition {
 
 // image 1, grey mask, image 2, forced choice.
 struct Trial {
-    double mask = 2;         // seconds of grey between the images; cannot be skipped
-    int grey = 128;          // code value of mask and surround, 0 ... 255
-    double minimumView = 0;  // seconds during which Space does not yet end an image
+    double mask = 2;        // seconds of grey between the images; cannot be skipped
+    int grey = 128;         // code value of mask and surround, 0 ... 255
+    double minimumView = 0; // seconds during which Space does not yet end an image
 };
 
 enum class OrderScheme { thesis };
@@ -128,7 +128,7 @@ struct Simulation {
 };
 
 struct Protocol {
-    std::string name;  // lower-case letters, digits and hyphens; names the data folder
+    std::string name; // lower-case letters, digits and hyphens; names the data folder
     std::string title;
     std::uint64_t seed = 0;
     int width = 1280, height = 720;

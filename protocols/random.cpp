@@ -34,8 +34,8 @@ std::uint64_t hashName(std::string_view name) {
 
 Random::Random(std::uint64_t seed, std::string_view purpose) {
     const std::uint64_t name = hashName(purpose);
-    key_ = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32) ^
-                                                  static_cast<std::uint32_t>(name >> 32)};
+    key_ = {static_cast<std::uint32_t>(seed),
+            static_cast<std::uint32_t>(seed >> 32) ^ static_cast<std::uint32_t>(name >> 32)};
     stream_ = static_cast<std::uint32_t>(name);
 }
 

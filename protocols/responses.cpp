@@ -20,11 +20,17 @@ constexpr bool any(const R&) { return true; }
 
 // Shorthand for the checks below: a named string, number or set.
 template <auto field>
-bool filled(const R& r) { return !(r.*field).empty(); }
+bool filled(const R& r) {
+    return !(r.*field).empty();
+}
 template <auto field>
-bool positive(const R& r) { return r.*field >= 1; }
+bool positive(const R& r) {
+    return r.*field >= 1;
+}
 template <auto field>
-bool notNegative(const R& r) { return std::isfinite(static_cast<double>(r.*field)) && r.*field >= 0; }
+bool notNegative(const R& r) {
+    return std::isfinite(static_cast<double>(r.*field)) && r.*field >= 0;
+}
 template <auto field>
 bool digest(const R& r) {
     const std::string& text = r.*field;
@@ -33,9 +39,8 @@ bool digest(const R& r) {
 
 bool isUtcTime(std::string_view given) {
     constexpr std::string_view shape = "dddd-dd-ddTdd:dd:ddZ";
-    return std::equal(given.begin(), given.end(), shape.begin(), shape.end(), [](char c, char s) {
-        return s == 'd' ? c >= '0' && c <= '9' : c == s;
-    });
+    return std::equal(given.begin(), given.end(), shape.begin(), shape.end(),
+                      [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
 }
 
 constexpr std::string_view text = "text", some = "text, not empty", flag = "0 or 1",
@@ -57,8 +62,8 @@ const Column columns[] = {
     {"square_id", "Latin square that the slot belongs to, from 1", &R::squareId, count,
      positive<&R::squareId>},
     {"square_row", "Row of that square, from 1", &R::squareRow, count, positive<&R::squareRow>},
-    {"pairs_reversed", "1 when this slot exchanges the two images of every pair",
-     &R::pairsReversed, flag, any},
+    {"pairs_reversed", "1 when this slot exchanges the two images of every pair", &R::pairsReversed,
+     flag, any},
     {"trial_index", "Position of the trial in the session, from 1", &R::trialIndex, count,
      positive<&R::trialIndex>},
     {"trial_kind", "practice, main or catch", &R::trialKind, "practice, main or catch",
@@ -67,7 +72,8 @@ const Column columns[] = {
      }},
     {"repeat_index", "Which presentation of this condition to this participant, from 1",
      &R::repeatIndex, count, positive<&R::repeatIndex>},
-    {"condition_id", "Condition, from the protocol", &R::conditionId, some, filled<&R::conditionId>},
+    {"condition_id", "Condition, from the protocol", &R::conditionId, some,
+     filled<&R::conditionId>},
     {"level", "Complexity level of the lighting", &R::level, some, filled<&R::level>},
     {"scene", "Scene and camera, from the protocol", &R::scene, some, filled<&R::scene>},
     {"hypothesis", "Hypothesis that the condition tests", &R::hypothesis, text, any},
@@ -96,13 +102,16 @@ const Column columns[] = {
      number, notNegative<&R::questionOnsetMs>},
     {"decision_rt_ms", "Time from question to answer, ms", &R::decisionRtMs, number,
      notNegative<&R::decisionRtMs>},
-    {"refresh_hz", "Refresh rate measured at the start; the pacing clock's where there is no "
-                   "vertical blank",
-     &R::refreshHz, "a number > 0", [](const R& r) { return std::isfinite(r.refreshHz) && r.refreshHz > 0; }},
+    {"refresh_hz",
+     "Refresh rate measured at the start; the pacing clock's where there is no "
+     "vertical blank",
+     &R::refreshHz, "a number > 0",
+     [](const R& r) { return std::isfinite(r.refreshHz) && r.refreshHz > 0; }},
     {"missed_frames", "Frame intervals above 1.2 refreshes during the mask", &R::missedFrames,
      whole, notNegative<&R::missedFrames>},
-    {"timestamp_source", "How onsets were timed: oml (vertical blank counter), finish (swap, then "
-                         "wait for the GPU), none (no vertical blank: paced by the clock)",
+    {"timestamp_source",
+     "How onsets were timed: oml (vertical blank counter), finish (swap, then "
+     "wait for the GPU), none (no vertical blank: paced by the clock)",
      &R::timestampSource, "oml, finish, fence or none",
      [](const R& r) {
          return r.timestampSource == "oml" || r.timestampSource == "finish" ||
@@ -118,25 +127,25 @@ const Column columns[] = {
      [](const R& r) { return r.choseB == ((r.chosenPosition == 2) == (r.firstIs == "a")); }},
     {"interrupted", "1 when the window lost the screen during the trial", &R::interrupted, flag,
      any},
-    {"early_presses_in_mask", "Keys pressed during the mask, and discarded",
-     &R::earlyPressesInMask, whole, notNegative<&R::earlyPressesInMask>},
+    {"early_presses_in_mask", "Keys pressed during the mask, and discarded", &R::earlyPressesInMask,
+     whole, notNegative<&R::earlyPressesInMask>},
     {"app_version", "Version of Obscura", &R::appVersion, some, filled<&R::appVersion>},
-    {"git_commit", "Commit that Obscura was built from", &R::gitCommit, some, filled<&R::gitCommit>},
+    {"git_commit", "Commit that Obscura was built from", &R::gitCommit, some,
+     filled<&R::gitCommit>},
     {"protocol_sha256", "SHA-256 of the protocol file", &R::protocolSha256, hash,
      digest<&R::protocolSha256>},
     {"machine_id", "Name of the machine", &R::machineId, some, filled<&R::machineId>},
     {"wall_time_utc", "When the row was written, ISO 8601, UTC", &R::wallTimeUtc,
-     "a time such as 2026-01-31T23:59:59Z",
-     [](const R& r) { return isUtcTime(r.wallTimeUtc); }},
+     "a time such as 2026-01-31T23:59:59Z", [](const R& r) { return isUtcTime(r.wallTimeUtc); }},
 };
 
 std::string spell(const Response& response, const Column& column) {
     struct {
         const Response& row;
-        std::string operator()(std::string R::* field) const { return csvCell(row.*field); }
-        std::string operator()(int R::* field) const { return fmt::format("{}", row.*field); }
-        std::string operator()(bool R::* field) const { return row.*field ? "1" : "0"; }
-        std::string operator()(double R::* field) const { return fmt::format("{:.3f}", row.*field); }
+        std::string operator()(std::string R::*field) const { return csvCell(row.*field); }
+        std::string operator()(int R::*field) const { return fmt::format("{}", row.*field); }
+        std::string operator()(bool R::*field) const { return row.*field ? "1" : "0"; }
+        std::string operator()(double R::*field) const { return fmt::format("{:.3f}", row.*field); }
     } speller{response};
     return std::visit(speller, column.field);
 }
@@ -151,13 +160,13 @@ bool parseCell(Response& response, const Column& column, const std::string& cell
     struct {
         Response& row;
         const std::string& cell;
-        bool operator()(std::string R::* field) const {
+        bool operator()(std::string R::*field) const {
             row.*field = cell;
             return true;
         }
-        bool operator()(int R::* field) const { return parseNumber(cell, row.*field); }
-        bool operator()(double R::* field) const { return parseNumber(cell, row.*field); }
-        bool operator()(bool R::* field) const {
+        bool operator()(int R::*field) const { return parseNumber(cell, row.*field); }
+        bool operator()(double R::*field) const { return parseNumber(cell, row.*field); }
+        bool operator()(bool R::*field) const {
             row.*field = cell == "1";
             return cell == "0" || cell == "1";
         }
@@ -191,16 +200,15 @@ std::optional<BadRow> parseRow(const CsvRecord& record, const std::string& file,
     if (!record.fault.empty())
         return BadRow{place, record.fault};
     if (record.cells.size() != expected)
-        return BadRow{place, fmt::format("expected {} columns, found {}", expected,
-                                         record.cells.size())};
+        return BadRow{place,
+                      fmt::format("expected {} columns, found {}", expected, record.cells.size())};
     for (const bool check : {false, true}) // every cell first: a check may read several
         for (std::size_t i = 0; i < expected; ++i)
             if (check ? !columns[i].accepts(response)
                       : !parseCell(response, columns[i], record.cells[i]))
-                return BadRow{{file, record.line, static_cast<int>(i) + 1,
-                               std::string(columns[i].name)},
-                              fmt::format("expected {}, found \"{}\"", columns[i].expected,
-                                          record.cells[i])};
+                return BadRow{
+                    {file, record.line, static_cast<int>(i) + 1, std::string(columns[i].name)},
+                    fmt::format("expected {}, found \"{}\"", columns[i].expected, record.cells[i])};
     return std::nullopt;
 }
 

@@ -45,9 +45,10 @@ struct Response {
 struct Column {
     std::string_view name;        // in the CSV header
     std::string_view description; // for dataset_description.json and readers
-    std::variant<std::string Response::*, int Response::*, double Response::*, bool Response::*> field;
-    std::string_view expected;    // "text", "a whole number >= 1", "a or b": checked, and quoted
-                                  // in errors
+    std::variant<std::string Response::*, int Response::*, double Response::*, bool Response::*>
+        field;
+    std::string_view expected; // "text", "a whole number >= 1", "a or b": checked, and quoted
+                               // in errors
     bool (*accepts)(const Response&);
 };
 

@@ -132,7 +132,8 @@ std::array<double, 3> TomlTable::triple(std::string_view key, double low, double
         wrong(key, *found, expected);
     std::array<double, 3> result{};
     for (std::size_t i = 0; i < 3; ++i)
-        result[i] = bounded(fmt::format("{}[{}]", key, i + 1), *array->get(i), low, high, "a number");
+        result[i] =
+            bounded(fmt::format("{}[{}]", key, i + 1), *array->get(i), low, high, "a number");
     return result;
 }
 

@@ -22,7 +22,8 @@ class TomlTable {
 
     bool has(std::string_view key);
     // Without a fallback, the key is compulsory. Numbers lie in [low, high].
-    double number(std::string_view key, double low, double high, std::optional<double> fallback = {});
+    double number(std::string_view key, double low, double high,
+                  std::optional<double> fallback = {});
     int integer(std::string_view key, int low, int high, std::optional<int> fallback = {});
     bool flag(std::string_view key, bool fallback);
     std::string text(std::string_view key, std::optional<std::string> fallback = {});

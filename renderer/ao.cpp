@@ -39,7 +39,8 @@ std::string declareInputs(const Technique& technique) {
     // Every pass's, for a file's other functions must compile too.
     int unit = resultUnit;
     for (const Pass& pass : technique.passes)
-        text += fmt::format("layout(binding = {}) uniform sampler2D {}Result;\n", unit++, pass.name);
+        text +=
+            fmt::format("layout(binding = {}) uniform sampler2D {}Result;\n", unit++, pass.name);
     return text;
 }
 
@@ -58,8 +59,7 @@ gl::ShaderText passShader(const Technique& technique, const Pass& pass) {
 }
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
-    : settings_(settingsBlock(settings)),
-      open_(gl::constantTexture({1, 1, 1, 1})) {
+    : settings_(settingsBlock(settings)), open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
     int unit = resultUnit;
     for (const Pass& pass : technique.passes) {
@@ -67,9 +67,9 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         if (!enabled(settings, pass))
             continue;
         const std::string label = fmt::format("{} {}", technique.id, pass.name);
-        steps_.push_back({gl::Program(label, shaderText("screen.vert"), passShader(technique, pass)),
-                          gl::Target(width, height, std::array{pass.format}, false, label),
-                          own});
+        steps_.push_back(
+            {gl::Program(label, shaderText("screen.vert"), passShader(technique, pass)),
+             gl::Target(width, height, std::array{pass.format}, false, label), own});
     }
     if (technique.points) {
         const std::vector<glm::vec4> points =

@@ -41,9 +41,7 @@ Shape archedWall(const ArchedWall& wall) {
     Shape shape = archedFace(wall);
     shape.add(archedFace(wall), at({0, 0, 0}, 180));
     shape.add(patch(
-        [&](glm::vec2 uv) {
-            return glm::vec3(onArch(wall, uv.x), glm::mix(-half, half, uv.y));
-        },
+        [&](glm::vec2 uv) { return glm::vec3(onArch(wall, uv.x), glm::mix(-half, half, uv.y)); },
         24, 1, {1, 1}));
     if (wall.foot < wall.springing) {
         const Shape jamb = patch(
@@ -67,8 +65,9 @@ Shape voussoirs(const ArchedWall& wall, int count, float width) {
         const float outer = wall.radius + width * (key ? 1.25F : 1.0F);
         const float middle = (inner + outer) / 2;
         const float joint = 0.008F, angle = glm::pi<float>() / part(count, 1);
-        Shape stone = box({middle * angle - joint, outer - inner,
-                           wall.thickness + (key ? 0.10F : 0.05F)}, 0.012F);
+        Shape stone =
+            box({middle * angle - joint, outer - inner, wall.thickness + (key ? 0.10F : 0.05F)},
+                0.012F);
         const float turn = (part(i, 1) + 0.5F) * angle - glm::half_pi<float>();
         deform(stone, [=](glm::vec3 p) {
             const float a = turn + p.x / middle, r = middle + p.y;

@@ -11,17 +11,17 @@ namespace obscura::builtin {
 namespace {
 
 // The plan, in metres. The court's long sides run along x; half sizes are (x, z).
-constexpr glm::vec2 court{9, 4.5F};     // the lines on which the columns stand
-constexpr glm::vec2 outer{12, 7.5F};    // the inner faces of the outer walls
+constexpr glm::vec2 court{9, 4.5F};      // the lines on which the columns stand
+constexpr glm::vec2 outer{12, 7.5F};     // the inner faces of the outer walls
 constexpr float bay = 3, passage = 2.7F; // between columns; from the arcade's back to the wall
-constexpr float arcade = 0.6F;          // thickness of the lower arcade; its middle is on `court`
+constexpr float arcade = 0.6F;           // thickness of the lower arcade; its middle is on `court`
 constexpr float courtFloor = -0.45F, galleryFloor = 4.7F, wallTop = 8.6F;
-constexpr float step = 0.32F;           // tread of the three steps down to the court
-constexpr float rail = 0.95F;           // height of the balustrade
+constexpr float step = 0.32F; // tread of the three steps down to the court
+constexpr float rail = 0.95F; // height of the balustrade
 
 const ArchedWall lowerArch{bay, 1.2F, 3.1F, galleryFloor, arcade, 3.1F};
-const ArchedWall upperArch{bay / 2, 0.56F, galleryFloor + 2.75F, wallTop, 0.4F,
-                           galleryFloor + 2.75F};
+const ArchedWall upperArch{bay / 2, 0.56F, galleryFloor + 2.75F,
+                           wallTop, 0.4F,  galleryFloor + 2.75F};
 const ArchedWall lowerNiche{bay, 0.85F, 1.75F, 4.5F, 0.3F, 0};
 const ArchedWall upperNiche{bay, 0.7F, 1.7F, wallTop - galleryFloor, 0.2F, 0};
 
@@ -63,7 +63,8 @@ void addArcade(Works& works) {
     for (const glm::mat4& place : columnsOf(court, bay))
         works.limestone.add(column, place);
     for (const glm::vec2 signs : corners)
-        works.limestone.add(pier({0.84F, 0.84F}, lowerArch.springing), at(inCorner(court, signs, 0)));
+        works.limestone.add(pier({0.84F, 0.84F}, lowerArch.springing),
+                            at(inCorner(court, signs, 0)));
     for (const glm::vec2 signs : corners)
         works.ashlar.add(box({0.76F, galleryFloor - 3.1F, 0.76F}, 0.01F),
                          at(inCorner(court, signs, (galleryFloor + 3.1F) / 2)));
@@ -88,9 +89,9 @@ void addPassage(Works& works) {
 // The wall behind the passage, with a niche or a door in each bay.
 void addOuterWall(Works& works) {
     Shape wall = archedWall(lowerNiche);
-    wall.add(patch(
-        [](glm::vec2 uv) { return glm::vec3(1.8F * (uv.x - 0.5F), 2.7F * uv.y, -0.15F); }, 1, 1,
-        {1, 1}));
+    wall.add(
+        patch([](glm::vec2 uv) { return glm::vec3(1.8F * (uv.x - 0.5F), 2.7F * uv.y, -0.15F); }, 1,
+              1, {1, 1}));
     for (Vertex& vertex : wall.vertices) // the painter's bay is 3 m x 4.5 m
         vertex.uv = {vertex.position.x + vertex.position.z + 1.65F,
                      (4.5F - vertex.position.y) / 1.5F};
@@ -106,7 +107,8 @@ void addOuterWall(Works& works) {
             works.timber.add(leaf, place * at({0, 0, -0.22F}));
         ++index;
     }
-    works.limestone.add(innerMoulding({{0.05F, 0}, {0.05F, 0.14F}, {0.02F, 0.18F}, {0, 0.18F}}, outer));
+    works.limestone.add(
+        innerMoulding({{0.05F, 0}, {0.05F, 0.14F}, {0.02F, 0.18F}, {0, 0.18F}}, outer));
 }
 
 Shape floorBetween(glm::vec2 low, glm::vec2 high, float y) {
@@ -178,16 +180,16 @@ void addBalustrade(Works& works) {
 void addCornices(Works& works) {
     const glm::vec2 lower = court - arcade / 2, upper = court - upperArch.thickness / 2;
     works.limestone.add(cornice(lower, 0.20F, 0.3F), at({0, galleryFloor - 0.26F, 0}));
-    works.limestone.add(dentils(lower, {0.09F, 0.09F, 0.08F}, 0.17F), at({0, galleryFloor - 0.26F, 0}));
+    works.limestone.add(dentils(lower, {0.09F, 0.09F, 0.08F}, 0.17F),
+                        at({0, galleryFloor - 0.26F, 0}));
     works.limestone.add(cornice(upper, 0.5F, 0.42F), at({0, wallTop - 0.02F, 0}));
     works.limestone.add(dentils(upper, {0.16F, 0.16F, 0.28F}, 0.42F), at({0, wallTop + 0.12F, 0}));
 }
 
 void addUpperRoom(Works& works) {
     Shape wall = archedWall(upperNiche);
-    wall.add(patch(
-        [](glm::vec2 uv) { return glm::vec3(1.5F * (uv.x - 0.5F), 2.5F * uv.y, -0.1F); }, 1, 1,
-        {1, 1}));
+    wall.add(patch([](glm::vec2 uv) { return glm::vec3(1.5F * (uv.x - 0.5F), 2.5F * uv.y, -0.1F); },
+                   1, 1, {1, 1}));
     projectUv(wall);
     const Shape ring = voussoirs(upperNiche, 11, 0.18F);
     for (const glm::mat4& bayPlace : bays(outer, bay)) {
@@ -201,7 +203,8 @@ void addUpperRoom(Works& works) {
     for (const float side : {-1.0F, 1.0F}) {
         const glm::vec2 strip(2 * outer.x + 1, outer.y - court.y + 0.3F);
         const float away = (outer.y + court.y + 0.1F) / 2;
-        works.timber.add(box({strip.x, 0.4F, strip.y}, 0.01F), at({0, wallTop + 0.2F, side * away}));
+        works.timber.add(box({strip.x, 0.4F, strip.y}, 0.01F),
+                         at({0, wallTop + 0.2F, side * away}));
         works.timber.add(box({outer.x - court.x + 0.3F, 0.4F, 2 * court.y}, 0.01F),
                          at({side * (outer.x + court.x + 0.1F) / 2, wallTop + 0.2F, 0}));
     }
@@ -215,7 +218,8 @@ void addCloth(Works& works) {
     int index = 0;
     for (const glm::mat4& place : bays(court, bay)) {
         if (index % 3 == 0) {
-            (index % 2 == 0 ? works.crimson : works.blue).add(curtain, place * at({0, 0.04F, -0.05F}));
+            (index % 2 == 0 ? works.crimson : works.blue)
+                .add(curtain, place * at({0, 0.04F, -0.05F}));
             works.timber.add(rod, place * at({0, height, -0.05F}) * across);
         }
         if (index % 3 == 1)
@@ -272,8 +276,8 @@ void furnish(Scene& scene, const Works& works) {
         cloth({0.13F, 0.27F, 0.45F}, {0.86F, 0.75F, 0.48F}), 1);
     add(works.terracotta, {.name = "terracotta"}, {512, 1, true, true},
         glaze({0.68F, 0.38F, 0.24F}), 1);
-    add(works.turquoise, {.name = "turquoise"}, {512, 1, true, true},
-        glaze({0.16F, 0.48F, 0.47F}), 1);
+    add(works.turquoise, {.name = "turquoise"}, {512, 1, true, true}, glaze({0.16F, 0.48F, 0.47F}),
+        1);
     add(works.palms, {.name = "palm", .alphaCutoff = 0.5F, .doubleSided = true}, {512, 0.25F},
         frond(), 1);
     addMesh(scene, works.water, plain(scene, "water", {0.03F, 0.09F, 0.09F}, 0.15F));

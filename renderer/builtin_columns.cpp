@@ -33,8 +33,8 @@ Shape flutedShaft(float radius, float height, int flutes) {
         const float t = uv.y * uv.y * (3 - 2 * uv.y); // more rows at the ends
         const float off = std::abs(glm::fract(uv.x * part(flutes, 1)) - 0.5F) / 0.43F;
         const float fromEnd = std::min(t, 1 - t) * height / (0.2F * radius) - 0.6F;
-        const float hollow = std::sqrt(std::max(0.0F, 1 - off * off)) *
-                             std::sqrt(glm::clamp(fromEnd, 0.0F, 1.0F));
+        const float hollow =
+            std::sqrt(std::max(0.0F, 1 - off * off)) * std::sqrt(glm::clamp(fromEnd, 0.0F, 1.0F));
         const float r = shaftRadius(radius, t) - 0.085F * radius * hollow;
         const float angle = glm::two_pi<float>() * uv.x;
         return glm::vec3(r * std::sin(angle), t * height, r * std::cos(angle));
@@ -48,8 +48,8 @@ struct Leaf {
     float foot, height, reach, radius;
 };
 
-// Rises along the bell, then rolls over outwards; lobed edges and a raised midrib. `thickness` gives
-// its back, which is seen from above.
+// Rises along the bell, then rolls over outwards; lobed edges and a raised midrib. `thickness`
+// gives its back, which is seen from above.
 glm::vec3 leafPoint(const Leaf& leaf, glm::vec2 uv, float thickness) {
     const float side = 2 * uv.x - 1, bend = 0.66F;
     const float t = 1 - std::pow(1 - uv.y, 1.5F); // more rows where it rolls over
@@ -62,8 +62,8 @@ glm::vec3 leafPoint(const Leaf& leaf, glm::vec2 uv, float thickness) {
     const float lift = dish - thickness * (1 - side * side);
     const float out = leaf.radius + 0.3F * leaf.reach * std::min(t, bend) / bend +
                       leaf.reach * (1 - std::cos(roll)) / 2 + lift * std::cos(roll);
-    const float y = leaf.foot + leaf.height * std::min(t, bend) +
-                    leaf.reach * std::sin(roll) / 2 - lift * std::sin(roll);
+    const float y = leaf.foot + leaf.height * std::min(t, bend) + leaf.reach * std::sin(roll) / 2 -
+                    lift * std::sin(roll);
     return {out * std::sin(angle), y, out * std::cos(angle)};
 }
 
@@ -71,8 +71,11 @@ Shape leafShape(const Leaf& leaf) {
     const float thickness = 0.09F * leaf.radius;
     const glm::vec2 metres(leaf.width * leaf.radius, leaf.height);
     Shape shape = patch([&](glm::vec2 uv) { return leafPoint(leaf, uv, 0); }, 6, 11, metres);
-    shape.add(patch([&](glm::vec2 uv) { return leafPoint(leaf, {1 - uv.x, uv.y}, thickness); }, 2,
-                    8, metres));
+    shape.add(patch(
+        [&](glm::vec2 uv) {
+            return leafPoint(leaf, {1 - uv.x, uv.y}, thickness);
+        },
+        2, 8, metres));
     return shape;
 }
 
@@ -85,8 +88,8 @@ Shape leaves(float r) {
         shape.add(leafShape({turn, 0.60F, 0.3F * r, 1.30F * r, 0.30F * r, 1.00F * r * taper}));
     }
     for (int i = 0; i < 4; ++i)
-        shape.add(leafShape({90 * part(i, 1) + 45, 0.36F, 0.7F * r, 0.86F * r, 0.58F * r,
-                             1.08F * r * taper}));
+        shape.add(leafShape(
+            {90 * part(i, 1) + 45, 0.36F, 0.7F * r, 0.86F * r, 0.58F * r, 1.08F * r * taper}));
     return shape;
 }
 
@@ -95,8 +98,8 @@ Shape abacus(float width, float height) {
     const float half = width / 2;
     Outline outline{{-half, 0}, {-0.35F * height, 0}};
     addArc(outline, {-0.35F * height, 0.35F * height}, 0.35F * height, -90, 0, 5);
-    outline.insert(outline.end(), {{0.12F * height, 0.40F * height}, {0.12F * height, height},
-                                   {-half, height}});
+    outline.insert(outline.end(),
+                   {{0.12F * height, 0.40F * height}, {0.12F * height, height}, {-half, height}});
     return pillar(outline, {width, width});
 }
 
@@ -143,7 +146,8 @@ Shape plainColumn(float radius, float height) {
     outline.push_back({thin, neck - 0.1F * radius});
     addArc(outline, {thin, neck}, 0.1F * radius, -90, 90, 5);
     outline.push_back({thin, neck + 0.45F * radius});
-    addArc(outline, {thin + 0.1F * radius, height - slab - 0.05F * radius}, 0.42F * radius, -60, 0, 5);
+    addArc(outline, {thin + 0.1F * radius, height - slab - 0.05F * radius}, 0.42F * radius, -60, 0,
+           5);
     outline.push_back({thin + 0.52F * radius, height - slab});
     shape.add(lathe(outline, 20));
     shape.add(abacus(2.9F * radius, slab), at({0, height - slab, 0}));
@@ -154,11 +158,13 @@ Shape pier(glm::vec2 size, float height) {
     const float unit = 0.1F;
     Outline outline{{0.06F, 0}, {0.06F, 1.4F * unit}};
     addArc(outline, {0.02F, 1.75F * unit}, 0.35F * unit, -90, 90, 5);
-    outline.insert(outline.end(), {{0.02F, 2.2F * unit}, {0, 2.4F * unit}, {0, height - 3.4F * unit}});
+    outline.insert(outline.end(),
+                   {{0.02F, 2.2F * unit}, {0, 2.4F * unit}, {0, height - 3.4F * unit}});
     addArc(outline, {0, height - 3.1F * unit}, 0.3F * unit, -90, 90, 4);
     outline.push_back({0, height - 2.2F * unit});
     addArc(outline, {0.6F * unit, height - 2.2F * unit}, 0.6F * unit, 180, 90, 5);
-    outline.insert(outline.end(), {{0.8F * unit, height - 1.5F * unit}, {0.8F * unit, height},
+    outline.insert(outline.end(), {{0.8F * unit, height - 1.5F * unit},
+                                   {0.8F * unit, height},
                                    {-std::min(size.x, size.y) / 2, height}});
     return pillar(outline, size);
 }
@@ -166,8 +172,10 @@ Shape pier(glm::vec2 size, float height) {
 Shape pedestal(float width, float height) {
     Outline outline{{0.03F, 0}, {0.03F, 0.09F}, {0.01F, 0.12F}, {0, 0.12F}, {0, height - 0.12F}};
     addArc(outline, {0.03F, height - 0.12F}, 0.03F, 180, 90, 3);
-    outline.insert(outline.end(), {{0.045F, height - 0.07F}, {0.045F, height - 0.01F},
-                                   {0.035F, height}, {-width / 2, height}});
+    outline.insert(outline.end(), {{0.045F, height - 0.07F},
+                                   {0.045F, height - 0.01F},
+                                   {0.035F, height},
+                                   {-width / 2, height}});
     return pillar(outline, {width, width});
 }
 
@@ -178,8 +186,10 @@ Shape baluster(float height) {
     addArc(outline, {0.02F * h, 0.34F * h}, 0.105F * h, -62, 50, 5); // the belly
     outline.insert(outline.end(), {{0.042F * h, 0.56F * h}, {0.035F * h, 0.70F * h}});
     addArc(outline, {0.04F * h, 0.74F * h}, 0.025F * h, -80, 80, 2);
-    outline.insert(outline.end(), {{0.04F * h, 0.79F * h}, {0.06F * h, 0.87F * h},
-                                   {0.085F * h, 0.90F * h}, {0.085F * h, 0.92F * h}});
+    outline.insert(outline.end(), {{0.04F * h, 0.79F * h},
+                                   {0.06F * h, 0.87F * h},
+                                   {0.085F * h, 0.90F * h},
+                                   {0.085F * h, 0.92F * h}});
     shape.add(lathe(outline, 8));
     shape.add(plinth(0.18F * h, 0.08F * h), at({0, 0.92F * h, 0}));
     return shape;

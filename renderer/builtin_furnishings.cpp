@@ -30,7 +30,8 @@ glm::vec3 curtainPoint(float width, float height, glm::vec2 uv) {
     const float bulge = 0.09F * gathered * std::sin(glm::pi<float>() * uv.x);
     return {across * (uv.x + 0.012F * std::sin(2 * wave + drift)),
             height * (1 - down) - sag * height * 0.12F,
-            depth * std::sin(wave + drift) + 0.3F * depth * std::sin(1.6F * wave + 2 * drift) + bulge};
+            depth * std::sin(wave + drift) + 0.3F * depth * std::sin(1.6F * wave + 2 * drift) +
+                bulge};
 }
 
 } // namespace
@@ -39,8 +40,10 @@ Shape curtains(float width, float height) {
     const float half = 0.52F * width;
     // u runs against x, so that v, which runs down, leaves the outside towards +z.
     Shape panel = patch(
-        [=](glm::vec2 uv) { return curtainPoint(half, height, {1 - uv.x, uv.y}); }, 48, 48,
-        {1.5F * half, 1});
+        [=](glm::vec2 uv) {
+            return curtainPoint(half, height, {1 - uv.x, uv.y});
+        },
+        48, 48, {1.5F * half, 1});
     Shape shape;
     shape.add(panel, at({-width / 2, 0, 0}));
     glm::mat4 mirror = at({width / 2, 0, 0});
@@ -60,7 +63,8 @@ Shape banner(float width, float back, float front, const Ledge& ledge) {
                            std::sin(20 * uv.x + 0.7F * std::sin(2 * s));
         const float out = s > 0 ? (ledge.out - round) * std::min(1.0F, hang / ledge.below) : 0.0F;
         return glm::vec3((0.5F - uv.x) * width * (1 - 0.05F * free),
-                         round * (std::cos(angle) - 1) - hang, round * std::sin(angle) + out + fold);
+                         round * (std::cos(angle) - 1) - hang,
+                         round * std::sin(angle) + out + fold);
     };
     return patch(surface, 40, 40, {width, 1});
 }
@@ -91,18 +95,25 @@ Shape amphora(float height) {
     Outline outline{{0, 0}, {0.10F, 0}, {0.12F, 0.015F}, {0.11F, 0.035F}, {0.075F, 0.06F}};
     for (int i = 1; i <= 16; ++i) { // the belly
         const float t = part(i, 16);
-        outline.push_back({0.075F + 0.175F * std::sin(glm::pi<float>() * std::pow(t, 0.85F) * 0.93F),
-                           0.06F + 0.62F * t});
+        outline.push_back(
+            {0.075F + 0.175F * std::sin(glm::pi<float>() * std::pow(t, 0.85F) * 0.93F),
+             0.06F + 0.62F * t});
     }
     addArc(outline, {0.155F, 0.80F}, 0.065F, 215, 160, 5);
-    outline.insert(outline.end(), {{0.11F, 0.95F}, {0.135F, 0.965F}, {0.145F, 0.985F},
-                                   {0.135F, 1.0F}, {0.105F, 0.99F}, {0.085F, 0.94F},
-                                   {0.08F, 0.8F}, {0, 0.78F}});
+    outline.insert(outline.end(), {{0.11F, 0.95F},
+                                   {0.135F, 0.965F},
+                                   {0.145F, 0.985F},
+                                   {0.135F, 1.0F},
+                                   {0.105F, 0.99F},
+                                   {0.085F, 0.94F},
+                                   {0.08F, 0.8F},
+                                   {0, 0.78F}});
     scale(outline, height);
     Shape shape = lathe(outline, 28);
     for (const float turn : {0.0F, 180.0F})
         shape.add(handle(glm::vec2(0.10F, 0.90F) * height, glm::vec2(0.19F, 0.62F) * height,
-                         0.11F * height, 0.018F * height), at({0, 0, 0}, turn));
+                         0.11F * height, 0.018F * height),
+                  at({0, 0, 0}, turn));
     return shape;
 }
 
@@ -112,8 +123,14 @@ Shape urn(float height) {
     outline.insert(outline.end(), {{0.20F, 0.25F}, {0.22F, 0.28F}});
     addArc(outline, {0.16F, 0.52F}, 0.26F, -68, 30, 8);
     addArc(outline, {0.47F, 0.76F}, 0.13F, 218, 130, 5);
-    outline.insert(outline.end(), {{0.46F, 0.90F}, {0.48F, 0.93F}, {0.48F, 0.97F}, {0.45F, 1.0F},
-                                   {0.38F, 1.0F}, {0.33F, 0.92F}, {0.31F, 0.82F}, {0, 0.84F}});
+    outline.insert(outline.end(), {{0.46F, 0.90F},
+                                   {0.48F, 0.93F},
+                                   {0.48F, 0.97F},
+                                   {0.45F, 1.0F},
+                                   {0.38F, 1.0F},
+                                   {0.33F, 0.92F},
+                                   {0.31F, 0.82F},
+                                   {0, 0.84F}});
     scale(outline, height);
     return lathe(outline, 28);
 }
@@ -184,9 +201,10 @@ Shape door(float radius, float springing) {
             shape.add(box({1.4F * width, height, 0.05F}, 0.02F), at(centre));
             shape.add(box({1.0F * width, 0.66F * height, 0.10F}, 0.03F), at(centre));
         }
-        shape.add(lathe({{0.05F, 0}, {0.04F, 0.03F}, {0.02F, 0.05F}, {0.02F, 0.07F}, {0, 0.08F}}, 12),
-                  glm::rotate(at({side * 0.08F, 0.62F * springing, 0.03F}), glm::half_pi<float>(),
-                              glm::vec3(1, 0, 0)));
+        shape.add(
+            lathe({{0.05F, 0}, {0.04F, 0.03F}, {0.02F, 0.05F}, {0.02F, 0.07F}, {0, 0.08F}}, 12),
+            glm::rotate(at({side * 0.08F, 0.62F * springing, 0.03F}), glm::half_pi<float>(),
+                        glm::vec3(1, 0, 0)));
     }
     shape.add(box({0.05F, 2 * (springing + radius), 0.10F}, 0.012F));
     projectUv(shape);

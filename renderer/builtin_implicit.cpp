@@ -63,8 +63,8 @@ void onBothCores(std::size_t count, const Work& work) {
     half(0, count / 2);
 }
 
-// In a crease finer than a cell the surface may fold back on itself: the vertices of a triangle that
-// faces against their normals move to the middle of their neighbours.
+// In a crease finer than a cell the surface may fold back on itself: the vertices of a triangle
+// that faces against their normals move to the middle of their neighbours.
 void unfold(Shape& shape) {
     std::vector<glm::vec4> sums(shape.vertices.size()); // of neighbours' positions, and their count
     std::vector<std::uint32_t> folded;
@@ -102,6 +102,7 @@ class Net {
             unfold(shape_);
             mendNormals(shape_);
         }
+        splitFolds(shape_);
         return std::move(shape_);
     }
 
@@ -170,9 +171,10 @@ void Net::sample(glm::ivec3 low) {
 void Net::settle(Vertex& vertex) const {
     const glm::vec3 cell = glm::floor((vertex.position - low_) / cell_);
     const glm::vec3 slope = gradient(field_, vertex.position, 0.1F * cell_);
-    const glm::vec3 moved = vertex.position - slope * field_(vertex.position) /
-                                                  std::max(glm::dot(slope, slope), 0.25F);
-    vertex.position = glm::clamp(moved, low_ + cell_ * (cell + 0.05F), low_ + cell_ * (cell + 0.95F));
+    const glm::vec3 moved =
+        vertex.position - slope * field_(vertex.position) / std::max(glm::dot(slope, slope), 0.25F);
+    vertex.position =
+        glm::clamp(moved, low_ + cell_ * (cell + 0.05F), low_ + cell_ * (cell + 0.95F));
     vertex.normal = glm::normalize(gradient(field_, vertex.position, 0.5F * cell_));
 }
 

@@ -39,7 +39,8 @@ Stone stoneAt(glm::vec2 metres, float period, glm::vec2 size, const Noise& noise
     const float y = metres.y / size.y - std::floor(metres.y / size.y);
     const float left = (across - joint(i)) * size.x, right = (joint(i + 1) - across) * size.x;
     const float inside = glm::min(glm::min(left, right), glm::min(y, 1 - y) * size.y);
-    return {noise.cell(name + 40, course + 7), inside,
+    return {noise.cell(name + 40, course + 7),
+            inside,
             glm::vec2(noise.cell(name, course + 60), noise.cell(name, course + 90)) - 0.5F,
             {left / (left + right) - 0.5F, y - 0.5F}};
 }
@@ -48,7 +49,8 @@ Stone stoneAt(glm::vec2 metres, float period, glm::vec2 size, const Noise& noise
 
 Painter ashlar() {
     return [noise = Noise("builtin/ashlar")](glm::vec2 uv) {
-        const glm::vec2 ragged(noise.value(uv * 128.0F, 128), noise.value(uv * 128.0F + 31.0F, 128));
+        const glm::vec2 ragged(noise.value(uv * 128.0F, 128),
+                               noise.value(uv * 128.0F + 31.0F, 128));
         const glm::vec2 metres = 4.0F * glm::fract(uv + 0.0005F * ragged);
         const Stone stone = stoneAt(metres, 4, {0.8F, 0.4F}, noise);
         const float cloud = noise.clouds(uv * 8.0F, 8, 4);
@@ -73,8 +75,8 @@ Painter limestone() {
         const float vein = ramp(0.06F, 0, std::abs(noise.clouds(uv * 4.0F + 2.0F * bent, 4, 3)));
         const float pit = ramp(0.42F, 0.62F, noise.clouds(uv * 128.0F, 128, 2));
         Texel texel;
-        texel.colour = glm::mix(glm::vec3(0.72F, 0.66F, 0.56F), glm::vec3(0.86F, 0.81F, 0.72F),
-                                0.5F + cloud);
+        texel.colour =
+            glm::mix(glm::vec3(0.72F, 0.66F, 0.56F), glm::vec3(0.86F, 0.81F, 0.72F), 0.5F + cloud);
         texel.colour *= 1 - 0.07F * vein - 0.18F * pit;
         texel.height = 0.002F * cloud - 0.002F * pit;
         return texel;
@@ -86,7 +88,8 @@ namespace {
 // Lines and fields of the painted wall, by height in a bay of 3 m x 4.5 m.
 glm::vec3 frescoColour(glm::vec2 metres) {
     const glm::vec3 red(0.47F, 0.17F, 0.12F), ochre(0.83F, 0.62F, 0.33F);
-    const glm::vec3 cream(0.89F, 0.83F, 0.70F), dark(0.20F, 0.16F, 0.15F), green(0.25F, 0.36F, 0.30F);
+    const glm::vec3 cream(0.89F, 0.83F, 0.70F), dark(0.20F, 0.16F, 0.15F),
+        green(0.25F, 0.36F, 0.30F);
     const float x = std::abs(metres.x - 1.5F), y = metres.y;
     const auto line = [](float distance, float halfWidth) {
         return ramp(halfWidth + 0.004F, halfWidth, std::abs(distance));
@@ -100,8 +103,8 @@ glm::vec3 frescoColour(glm::vec2 metres) {
         return glm::mix(glm::mix(green, dark, line(y - 1.04F, 0.02F)), cream,
                         glm::max(line(y - 0.995F, 0.008F), line(y - 1.085F, 0.008F)));
     if (y > 3.05F) { // a frieze of lozenges below a plain cream wall
-        const float lozenge = std::abs(glm::fract(metres.x / 0.25F) - 0.5F) * 0.25F +
-                              std::abs(y - 3.16F);
+        const float lozenge =
+            std::abs(glm::fract(metres.x / 0.25F) - 0.5F) * 0.25F + std::abs(y - 3.16F);
         const glm::vec3 frieze = glm::mix(red, ochre, ramp(0.075F, 0.068F, lozenge));
         return glm::mix(frieze, cream, ramp(3.262F, 3.268F, y) + line(y - 3.06F, 0.012F));
     }
@@ -118,7 +121,8 @@ Painter fresco() {
         const glm::vec2 metres(3 * uv.x, 4.5F * (1 - uv.y));
         const float cloud = noise.clouds(uv * 4.0F, 4, 4);
         const float trowel = noise.clouds(uv * glm::vec2(32, 64), 32, 3);
-        const float worn = ramp(0.10F, 0.30F, noise.clouds(uv * 8.0F + 5.0F, 8, 4) + 0.12F * trowel);
+        const float worn =
+            ramp(0.10F, 0.30F, noise.clouds(uv * 8.0F + 5.0F, 8, 4) + 0.12F * trowel);
         const float damp = ramp(0.5F, 0, metres.y + 0.35F * cloud);
         glm::vec3 colour = frescoColour(metres);
         colour = glm::mix(colour, glm::vec3(0.84F, 0.77F, 0.66F), 0.30F * worn);
@@ -151,11 +155,11 @@ Painter flagstones() {
         const float cloud = noise.clouds(uv * 8.0F, 8, 4);
         const float grain = noise.clouds(uv * 256.0F, 256, 2);
         const float face = ramp(0.004F, 0.022F, stone.inside);
-        const glm::vec3 warm = glm::mix(glm::vec3(0.62F, 0.56F, 0.48F),
-                                        glm::vec3(0.76F, 0.71F, 0.62F), stone.tone);
+        const glm::vec3 warm =
+            glm::mix(glm::vec3(0.62F, 0.56F, 0.48F), glm::vec3(0.76F, 0.71F, 0.62F), stone.tone);
         const glm::vec3 cool(0.58F, 0.58F, 0.55F);
-        glm::vec3 colour = glm::mix(warm, cool, ramp(0.7F, 0.8F, noise.cell(
-                               static_cast<int>(stone.tone * 255), 5)));
+        glm::vec3 colour = glm::mix(
+            warm, cool, ramp(0.7F, 0.8F, noise.cell(static_cast<int>(stone.tone * 255), 5)));
         colour *= 1 + 0.28F * cloud + 0.10F * grain;
         Texel texel;
         texel.colour = glm::mix(glm::vec3(0.36F, 0.33F, 0.28F), colour, face);
@@ -173,21 +177,24 @@ Painter marbleFloor() {
         const float lozenge = local.x + local.y;
         const bool dark = lozenge < 0.46F;
         const bool stud = lozenge > 0.84F;
-        const float joint = glm::min(glm::min(0.5F - glm::max(local.x, local.y),
-                                              std::abs(lozenge - 0.46F)),
-                                     std::abs(lozenge - 0.84F)) * 0.75F;
+        const float joint =
+            glm::min(glm::min(0.5F - glm::max(local.x, local.y), std::abs(lozenge - 0.46F)),
+                     std::abs(lozenge - 0.84F)) *
+            0.75F;
         const float bent = noise.clouds(uv * 8.0F + 2.0F, 8, 3);
         const float vein = ramp(0.07F, 0, std::abs(noise.clouds(uv * 8.0F + 1.5F * bent, 8, 4)));
         const float cloud = noise.clouds(uv * 16.0F, 16, 3);
-        const glm::vec3 pale = glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.66F, 0.60F, 0.52F),
-                                        0.7F * vein);
-        const glm::vec3 green = glm::mix(glm::vec3(0.20F, 0.27F, 0.24F), glm::vec3(0.47F, 0.53F, 0.47F),
-                                         0.6F * vein);
+        const glm::vec3 pale =
+            glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.66F, 0.60F, 0.52F), 0.7F * vein);
+        const glm::vec3 green =
+            glm::mix(glm::vec3(0.20F, 0.27F, 0.24F), glm::vec3(0.47F, 0.53F, 0.47F), 0.6F * vein);
         const glm::vec3 red(0.48F, 0.25F, 0.19F);
         const float face = ramp(0.001F, 0.005F, joint);
         Texel texel;
-        texel.colour = (stud ? red : dark ? green : pale) * (1 + 0.25F * cloud) *
-                       (0.55F + 0.45F * face);
+        texel.colour = (stud   ? red
+                        : dark ? green
+                               : pale) *
+                       (1 + 0.25F * cloud) * (0.55F + 0.45F * face);
         texel.height = 0.001F * face + 0.0006F * cloud;
         texel.roughness = glm::mix(0.9F, 0.32F + 0.3F * ramp(-0.1F, 0.4F, cloud), face);
         return texel;
@@ -218,13 +225,13 @@ Painter cloth(glm::vec3 colour, glm::vec3 trim) {
         // v runs from the rail to the hem; the figure is a net of lozenges with a star in each.
         const glm::vec2 tile = glm::abs(glm::fract(uv * glm::vec2(6, 12)) - 0.5F);
         const float net = ramp(0.05F, 0.03F, std::abs(tile.x + tile.y - 0.5F));
-        const float star = ramp(0.17F, 0.15F, std::sqrt(tile.x) * std::sqrt(tile.y) * 2 +
-                                                  glm::length(tile) * 0.6F);
+        const float star = ramp(
+            0.17F, 0.15F, std::sqrt(tile.x) * std::sqrt(tile.y) * 2 + glm::length(tile) * 0.6F);
         const float figure = glm::max(net, star);
         const float hem = glm::max(ramp(0.018F, 0.014F, std::abs(uv.y - 0.955F)),
                                    ramp(0.006F, 0.004F, std::abs(uv.y - 0.915F)));
-        const float thread = noise.value(uv * glm::vec2(256, 16), 256) +
-                             noise.value(uv * glm::vec2(16, 256), 256);
+        const float thread =
+            noise.value(uv * glm::vec2(256, 16), 256) + noise.value(uv * glm::vec2(16, 256), 256);
         const float fade = noise.clouds(uv * 4.0F, 4, 4);
         Texel texel;
         texel.colour = glm::mix(glm::mix(colour, trim, 0.28F * figure), trim, hem);

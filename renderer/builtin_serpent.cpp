@@ -73,8 +73,8 @@ void Serpent::groupRuns() {
         const Ring& middle = rings_[(first + last) / 2];
         Run run{first, last, middle.centre, 0, middle.radius};
         for (std::size_t i = first; i <= last; ++i)
-            run.radius = std::max(run.radius, glm::distance(run.centre, rings_[i].centre) +
-                                                  rings_[i].radius);
+            run.radius = std::max(run.radius,
+                                  glm::distance(run.centre, rings_[i].centre) + rings_[i].radius);
         runs_.push_back(run);
     }
 }
@@ -97,7 +97,8 @@ float plates(float along) {
 // How far the skin stands out, in radii. `around`: 0 on the back, pi on the belly.
 float skin(float along, float around) {
     const float belly = glm::smoothstep(2.05F, 2.25F, std::abs(around));
-    const float seam = 0.25F * std::exp(-70 * (std::abs(around) - 2.15F) * (std::abs(around) - 2.15F));
+    const float seam =
+        0.25F * std::exp(-70 * (std::abs(around) - 2.15F) * (std::abs(around) - 2.15F));
     return 0.17F * (glm::mix(scales(along, around), plates(along), belly) - 0.7F) - seam * 0.5F;
 }
 
@@ -106,8 +107,8 @@ float crest(float along, float side, float up) {
     const float t = glm::fract((along + 0.8F * (up - 1)) / 1.15F);
     const float height = 1.05F + 0.62F * std::pow(1 - std::abs(2 * t - 1), 1.3F);
     // 0.55: a thorn's slope makes the next one nearer than it seems from above.
-    return std::max({std::abs(side) - 0.26F + 0.30F * std::max(0.0F, up - 0.9F),
-                     0.55F * (up - height), -up});
+    return std::max(
+        {std::abs(side) - 0.26F + 0.30F * std::max(0.0F, up - 0.9F), 0.55F * (up - height), -up});
 }
 
 } // namespace
@@ -121,8 +122,8 @@ Serpent::Nearest Serpent::nearest(glm::vec3 p) const {
             continue;
         for (std::size_t i = run.first; i < run.last; ++i) {
             const glm::vec3 axis = rings_[i + 1].centre - rings_[i].centre;
-            const float t = glm::clamp(
-                glm::dot(p - rings_[i].centre, axis) / glm::dot(axis, axis), 0.0F, 1.0F);
+            const float t =
+                glm::clamp(glm::dot(p - rings_[i].centre, axis) / glm::dot(axis, axis), 0.0F, 1.0F);
             const float d = glm::distance(p, rings_[i].centre + t * axis) -
                             glm::mix(rings_[i].radius, rings_[i + 1].radius, t);
             if (d <= best.distance)
@@ -155,9 +156,13 @@ namespace {
 // In head space: x to the side (both sides alike), y up, z forwards; metres before scaling.
 float skull(glm::vec3 p) {
     float d = ellipsoid(p - glm::vec3(0, 0.005F, -0.01F), {0.058F, 0.050F, 0.075F});
-    d = merge(d, limb(p * glm::vec3(0.8F, 1, 1), {0, 0.010F, 0.05F}, {0, 0.004F, 0.150F}, 0.038F, 0.023F), 0.03F);
-    d = merge(d, limb(p, {0.012F, 0.016F, 0.150F}, {0.018F, 0.014F, 0.158F}, 0.014F, 0.012F), 0.012F);
-    d = merge(d, limb(p, {0.018F, 0.040F, 0.075F}, {0.054F, 0.046F, 0.005F}, 0.010F, 0.016F), 0.012F);
+    d = merge(
+        d, limb(p * glm::vec3(0.8F, 1, 1), {0, 0.010F, 0.05F}, {0, 0.004F, 0.150F}, 0.038F, 0.023F),
+        0.03F);
+    d = merge(d, limb(p, {0.012F, 0.016F, 0.150F}, {0.018F, 0.014F, 0.158F}, 0.014F, 0.012F),
+              0.012F);
+    d = merge(d, limb(p, {0.018F, 0.040F, 0.075F}, {0.054F, 0.046F, 0.005F}, 0.010F, 0.016F),
+              0.012F);
     d = merge(d, limb(p, {0.056F, -0.012F, 0.045F}, {0.058F, 0.0F, -0.03F}, 0.012F, 0.02F), 0.02F);
     d = cut(d, glm::distance(p, {0.050F, 0.022F, 0.050F}) - 0.017F, 0.008F);
     d = cut(d, glm::distance(p, {0.017F, 0.020F, 0.172F}) - 0.008F, 0.005F);
@@ -165,11 +170,14 @@ float skull(glm::vec3 p) {
 }
 
 float jaw(glm::vec3 p) {
-    float d = limb(p * glm::vec3(0.8F, 1, 1), {0, -0.040F, 0.0F}, {0, -0.078F, 0.125F}, 0.030F, 0.015F);
+    float d =
+        limb(p * glm::vec3(0.8F, 1, 1), {0, -0.040F, 0.0F}, {0, -0.078F, 0.125F}, 0.030F, 0.015F);
     d = cut(d, limb(p, {0, -0.030F, 0.03F}, {0, -0.060F, 0.13F}, 0.018F, 0.008F), 0.008F);
-    d = merge(d, limb(p, {0, -0.035F, 0.02F}, {0, -0.046F, 0.105F}, 0.012F, 0.006F), 0.006F); // tongue
+    d = merge(d, limb(p, {0, -0.035F, 0.02F}, {0, -0.046F, 0.105F}, 0.012F, 0.006F),
+              0.006F); // tongue
     d = merge(d, limb(p, {0, -0.095F, 0.115F}, {0, -0.130F, 0.095F}, 0.010F, 0.002F), 0.01F);
-    return merge(d, limb(p, {0.022F, -0.075F, 0.05F}, {0.028F, -0.112F, 0.02F}, 0.010F, 0.002F), 0.01F);
+    return merge(d, limb(p, {0.022F, -0.075F, 0.05F}, {0.028F, -0.112F, 0.02F}, 0.010F, 0.002F),
+                 0.01F);
 }
 
 float teeth(glm::vec3 p) {
@@ -177,14 +185,16 @@ float teeth(glm::vec3 p) {
     d = std::min(d, limb(p, {0.026F, -0.014F, 0.115F}, {0.027F, -0.036F, 0.116F}, 0.007F, 0.002F));
     d = std::min(d, limb(p, {0.032F, -0.016F, 0.085F}, {0.033F, -0.038F, 0.085F}, 0.007F, 0.002F));
     d = std::min(d, limb(p, {0.013F, -0.070F, 0.125F}, {0.014F, -0.042F, 0.133F}, 0.007F, 0.002F));
-    return std::min(d, limb(p, {0.022F, -0.062F, 0.09F}, {0.024F, -0.040F, 0.096F}, 0.007F, 0.002F));
+    return std::min(d,
+                    limb(p, {0.022F, -0.062F, 0.09F}, {0.024F, -0.040F, 0.096F}, 0.007F, 0.002F));
 }
 
 float horns(glm::vec3 p) {
     const glm::vec3 root(0.034F, 0.040F, -0.03F), bend(0.062F, 0.088F, -0.11F);
     const float rings = 0.0018F * std::sin(420 * p.z);
     float d = merge(limb(p, root, bend, 0.019F, 0.013F),
-                    limb(p, bend, {0.060F, 0.135F, -0.165F}, 0.013F, 0.003F), 0.004F) + rings;
+                    limb(p, bend, {0.060F, 0.135F, -0.165F}, 0.013F, 0.003F), 0.004F) +
+              rings;
     for (int i = 0; i < 3; ++i) { // a frill behind the cheek: three spines and the skin between
         const float y = 0.035F * part(i, 1);
         const glm::vec3 tip(0.125F, 0.035F - 1.4F * y, -0.095F + 0.3F * y);

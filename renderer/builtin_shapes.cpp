@@ -110,6 +110,7 @@ Shape patch(const Surface& surface, int across, int up, glm::vec2 metres) {
         }
     addCells(shape, across, up);
     mendNormals(shape);
+    splitFolds(shape);
     return shape;
 }
 
@@ -209,10 +210,10 @@ Shape moulding(const Outline& outline, std::span<const glm::vec2> plan) {
         };
         const float length = glm::distance(plan[i], plan[next]);
         const std::array<Station, 2> stations{
-            Station{{plan[i].x, 0, plan[i].y}, mitre(right(i + plan.size() - 1)), {0, 1, 0},
-                    facing, 0},
-            Station{{plan[next].x, 0, plan[next].y}, mitre(right(next)), {0, 1, 0}, facing,
-                    length}};
+            Station{
+                {plan[i].x, 0, plan[i].y}, mitre(right(i + plan.size() - 1)), {0, 1, 0}, facing, 0},
+            Station{
+                {plan[next].x, 0, plan[next].y}, mitre(right(next)), {0, 1, 0}, facing, length}};
         shape.add(sweep(outline, stations));
     }
     return shape;
@@ -250,8 +251,8 @@ void deform(Shape& shape, const Mapping& mapping) {
             offset[axis] = step;
             slope[axis] = mapping(vertex.position + offset) - mapping(vertex.position - offset);
         }
-        vertex.normal = glm::normalize(glm::inverse(glm::transpose(slope / (2 * step))) *
-                                       vertex.normal);
+        vertex.normal =
+            glm::normalize(glm::inverse(glm::transpose(slope / (2 * step))) * vertex.normal);
         vertex.position = mapping(vertex.position);
     }
 }
@@ -274,6 +275,23 @@ void mendNormals(Shape& shape) {
             shape.vertices[i].normal = glm::normalize(faces[i]);
 }
 
+void splitFolds(Shape& shape) {
+    for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
+        std::array<Vertex, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k)
+            corners[k] = shape.vertices[shape.indices[i + k]];
+        const glm::vec3 face = glm::cross(corners[1].position - corners[0].position,
+                                          corners[2].position - corners[0].position);
+        if (glm::dot(face, corners[0].normal + corners[1].normal + corners[2].normal) > 0)
+            continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corners[k].normal = glm::normalize(face);
+            shape.indices[i + k] = static_cast<std::uint32_t>(shape.vertices.size());
+            shape.vertices.push_back(corners[k]);
+        }
+    }
+}
+
 void projectUv(Shape& shape) {
     for (Vertex& vertex : shape.vertices) {
         const glm::vec3 size = glm::abs(vertex.normal);
@@ -294,7 +312,8 @@ std::uint32_t boxVertex(int axis, unsigned corner) {
 }
 
 Vertex chamferedCorner(glm::vec3 size, float bevel, int axis, unsigned corner) {
-    const glm::vec3 signs = glm::vec3(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U) * 2.0F - 1.0F;
+    const glm::vec3 signs =
+        glm::vec3(corner & 1U, corner >> 1U & 1U, corner >> 2U & 1U) * 2.0F - 1.0F;
     Vertex vertex;
     vertex.position = signs * (size / 2.0F - bevel);
     vertex.position[axis] = signs[axis] * size[axis] / 2.0F;
@@ -328,10 +347,10 @@ Shape box(glm::vec3 size, float bevel) {
         const unsigned a = 1U << axis, b = 1U << next, c = 7U - a - b;
         for (const unsigned end : {0U, a}) {
             addSquare(shape, {boxVertex(axis, end), boxVertex(axis, end | b),
-                                boxVertex(axis, end | b | c), boxVertex(axis, end | c)});
+                              boxVertex(axis, end | b | c), boxVertex(axis, end | c)});
             for (const unsigned side : {0U, b})
                 addSquare(shape, {boxVertex(axis, end | side), boxVertex(axis, end | side | c),
-                                    boxVertex(next, end | side | c), boxVertex(next, end | side)});
+                                  boxVertex(next, end | side | c), boxVertex(next, end | side)});
         }
     }
     for (unsigned corner = 0; corner < 8; ++corner)

@@ -78,6 +78,8 @@ void deform(Shape& shape, const Mapping& mapping);
 // In a crease finer than the mesh a triangle may face against the surface's own normal at a corner;
 // such a corner takes the mean of the faces that meet there instead.
 void mendNormals(Shape& shape);
+// What still does, as where a sheet is thinner than a cell, gets flat vertices of its own.
+void splitFolds(Shape& shape);
 
 // Texture coordinates by projection along the axis that the normal is nearest to, as stone is cut.
 void projectUv(Shape& shape);

@@ -31,13 +31,13 @@ int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Pai
 int addColourTexture(Scene& scene, Image8 image);
 
 // The painters of the atrium. Metres across: see each.
-Painter ashlar();       // 4 m: courses of cut sandstone
-Painter limestone();    // 1.5 m: pale, veined, pitted
-Painter fresco();       // 3 m: a bay of painted plaster; a red dado below panels on ochre
-Painter plaster();      // 3 m: rough and stained
-Painter flagstones();   // 4 m: worn paving in three widths
-Painter marbleFloor();  // 3 m: polished squares and lozenges
-Painter timber();       // 2 m: planks along u
+Painter ashlar();      // 4 m: courses of cut sandstone
+Painter limestone();   // 1.5 m: pale, veined, pitted
+Painter fresco();      // 3 m: a bay of painted plaster; a red dado below panels on ochre
+Painter plaster();     // 3 m: rough and stained
+Painter flagstones();  // 4 m: worn paving in three widths
+Painter marbleFloor(); // 3 m: polished squares and lozenges
+Painter timber();      // 2 m: planks along u
 Painter cloth(glm::vec3 colour, glm::vec3 trim); // 2 m: a weave with a patterned hem
 Painter glaze(glm::vec3 colour);                 // 1 m: a crackled ceramic glaze
 Painter frond();                                 // a palm leaf along v, cut out by alpha

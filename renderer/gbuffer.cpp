@@ -51,12 +51,12 @@ Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bound
     frame.viewFromWorld = glm::mat4(viewFromWorld);
     frame.worldFromView = glm::mat4(glm::inverse(viewFromWorld));
     frame.clipFromView = glm::mat4(clipFromView);
-    frame.viewFromUv = glm::vec4(2 / scaleX, 2 / scaleY, (-1 - shiftX) / scaleX,
-                                 (-1 - shiftY) / scaleY);
+    frame.viewFromUv =
+        glm::vec4(2 / scaleX, 2 / scaleY, (-1 - shiftX) / scaleX, (-1 - shiftY) / scaleY);
     frame.size = glm::vec4(width, height, 1.0 / width, 1.0 / height);
     const double focus = glm::distance(vec(camera.position), vec(camera.target));
-    frame.depth = glm::vec4(camera.near, emptyDepth(viewFromWorld, bounds, camera.near), focus,
-                            scaleY / 2);
+    frame.depth =
+        glm::vec4(camera.near, emptyDepth(viewFromWorld, bounds, camera.near), focus, scaleY / 2);
     frame.seed = glm::ivec4(static_cast<int>(seed & 0x7fffffff), 0, 0, 0);
     return frame;
 }

@@ -47,9 +47,11 @@ class GBuffer {
     GBuffer(int width, int height, bool normals);
 
     const gl::Target& target() const { return target_; }
-    const gl::Texture& albedo() const { return target_.colour(0); } // sRGB; alpha: specular
-                                                                    // intensity
-    const gl::Texture& depth() const { return target_.colour(1); }  // linear view depth, metres
+    const gl::Texture& albedo() const {
+        return target_.colour(0);
+    }                                                              // sRGB; alpha: specular
+                                                                   // intensity
+    const gl::Texture& depth() const { return target_.colour(1); } // linear view depth, metres
     const gl::Texture* normal() const { // view-space unit vector; alpha: specular power
         return target_.count() > 2 ? &target_.colour(2) : nullptr;
     }

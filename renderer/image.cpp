@@ -34,7 +34,8 @@ std::vector<T> withChannels(const std::vector<T>& from, int have, int want, T op
                 value = from[i * static_cast<std::size_t>(have) +
                              static_cast<std::size_t>(colours == 1 ? 0 : std::min(c, colours - 1))];
             else if (alpha)
-                value = from[i * static_cast<std::size_t>(have) + static_cast<std::size_t>(colours)];
+                value =
+                    from[i * static_cast<std::size_t>(have) + static_cast<std::size_t>(colours)];
             to[i * static_cast<std::size_t>(want) + static_cast<std::size_t>(c)] = value;
         }
     return to;
@@ -82,8 +83,7 @@ void write(const std::filesystem::path& path, OIIO::ImageSpec spec, OIIO::TypeDe
 
 float srgbFromLinear(float linear) {
     linear = std::clamp(linear, 0.0f, 1.0f);
-    return linear <= 0.0031308f ? 12.92f * linear
-                                : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
 float linearFromSrgb(float code) {
@@ -128,7 +128,8 @@ Difference compare(const Image& first, const Image& second, double threshold) {
     double squares = 0, sum = 0;
     std::size_t beyond = 0;
     for (std::size_t i = 0; i < first.pixels.size(); ++i) {
-        const double d = static_cast<double>(second.pixels[i]) - static_cast<double>(first.pixels[i]);
+        const double d =
+            static_cast<double>(second.pixels[i]) - static_cast<double>(first.pixels[i]);
         sum += d;
         squares += d * d;
         // Written so that NaN counts as beyond every threshold.

@@ -63,8 +63,8 @@ Irradiance irradianceOf(const Image& panorama) {
     std::array<glm::dvec3, 9> sums{};
     for (int y = 0; y < panorama.height; ++y) {
         const double v = (y + 0.5) / panorama.height;
-        const double area =
-            2 * pi * pi * std::sin(v * pi) / (static_cast<double>(panorama.width) * panorama.height);
+        const double area = 2 * pi * pi * std::sin(v * pi) /
+                            (static_cast<double>(panorama.width) * panorama.height);
         for (int x = 0; x < panorama.width; ++x) {
             const auto value = basis(panoramaDirection((x + 0.5) / panorama.width, v));
             const glm::dvec3 radiance(panorama.at(x, y, 0), panorama.at(x, y, 1),
@@ -79,7 +79,9 @@ Irradiance irradianceOf(const Image& panorama) {
     for (std::size_t i = 0; i < 9; ++i)
         for (int c = 0; c < 3; ++c)
             result[i][static_cast<std::size_t>(c)] =
-                static_cast<float>(sums[i][c] * lobe[i == 0 ? 0 : i < 4 ? 1 : 2]);
+                static_cast<float>(sums[i][c] * lobe[i == 0  ? 0
+                                                     : i < 4 ? 1
+                                                             : 2]);
     return result;
 }
 
@@ -145,8 +147,7 @@ Lighting::Lighting(const Level& level, const GpuScene& scene,
         program_.set("ambient", span3(glm::vec3(vec(*level.ambient))));
         program_.set("background", span3(glm::vec3(vec(level.background))));
     } else {
-        const Image panorama =
-            level.sky ? skyPanorama(*level.sky) : readImage(environment, 3);
+        const Image panorama = level.sky ? skyPanorama(*level.sky) : readImage(environment, 3);
         panorama_ = gl::panoramaTexture(panorama.width, panorama.height, panorama.pixels);
         const Irradiance irradiance = irradianceOf(panorama);
         program_.setArray("irradiance", std::span(irradiance[0].data(), 27));
@@ -155,8 +156,8 @@ Lighting::Lighting(const Level& level, const GpuScene& scene,
         program_.set("sunDirection", span3(directionOf(*level.sun)));
         program_.set("sunIrradiance", span3(glm::vec3(vec(level.sun->irradiance))));
         program_.set("shadowTexel", shadow_->texel());
-        program_.setMatrix("lightFromWorld",
-                           std::span<const float, 16>(glm::value_ptr(shadow_->lightFromWorld()), 16));
+        program_.setMatrix("lightFromWorld", std::span<const float, 16>(
+                                                 glm::value_ptr(shadow_->lightFromWorld()), 16));
     }
 }
 

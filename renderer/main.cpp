@@ -74,12 +74,12 @@ int printTechnique(const std::string& id) {
 }
 
 // The image that a protocol's condition shows.
-Recipe recipeOfProtocol(const Options& options, const Folders& folders, const gl::Driver& driver) {
+Recipe recipeOfProtocol(const Options& options, SceneHashes& scenes, const gl::Driver& driver) {
     const Protocol protocol = readProtocol(options.protocol);
     std::vector<std::string> ids;
     for (const Condition& condition : protocol.conditions) {
         if (condition.id == options.condition)
-            return makeRecipe(protocol, condition, options.member, folders, driver);
+            return makeRecipe(protocol, condition, options.member, scenes, driver);
         ids.push_back(condition.id);
     }
     throw Error(fmt::format("{} has no condition \"{}\"{}", options.protocol.string(),
@@ -101,9 +101,10 @@ Level levelOf(const std::string& name) {
 }
 
 // One view put together on the command line.
-Recipe recipeOfOptions(const Options& options, const Folders& folders, const gl::Driver& driver) {
+Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Driver& driver) {
     if (options.camera.size() != 6)
-        throw Error("expected --camera with six numbers, position and target: --camera 0 2 8 0 1 0");
+        throw Error(
+            "expected --camera with six numbers, position and target: --camera 0 2 8 0 1 0");
     const auto& c = options.camera;
     Protocol protocol;
     protocol.seed = static_cast<std::uint64_t>(options.seed);
@@ -113,7 +114,8 @@ Recipe recipeOfOptions(const Options& options, const Folders& folders, const gl:
     View view;
     view.name = options.scene;
     const auto builtins = builtinSceneNames();
-    const bool builtin = std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
+    const bool builtin =
+        std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
     (builtin ? view.builtin : view.file) = options.scene;
     view.camera.position = {c[0], c[1], c[2]};
     view.camera.target = {c[3], c[4], c[5]};
@@ -135,7 +137,7 @@ Recipe recipeOfOptions(const Options& options, const Folders& folders, const gl:
     condition.view = view.name;
     condition.level = options.level;
     condition.pair = {"technique", "technique"};
-    return makeRecipe(protocol, condition, 0, folders, driver);
+    return makeRecipe(protocol, condition, 0, scenes, driver);
 }
 
 void writeLayers(const fs::path& out, const Rendering& rendering) {
@@ -146,16 +148,17 @@ void writeLayers(const fs::path& out, const Rendering& rendering) {
     const std::vector<std::string> names{"R", "G", "B", "A"};
     writeExr(beside("ao"), rendering.visibility, std::array{std::string("V")}, true);
     for (const auto& [kind, image] : rendering.layers)
-        writeExr(beside(kind), image, std::span(names).first(static_cast<std::size_t>(image.channels)),
-                 kind == "depth");
+        writeExr(beside(kind), image,
+                 std::span(names).first(static_cast<std::size_t>(image.channels)), kind == "depth");
 }
 
 int render(const Options& options) {
     const gl::Context context(options.device);
     const Folders folders{options.scenes, options.protocol.parent_path()};
+    SceneHashes scenes(folders);
     const Recipe recipe = options.protocol.empty()
-                              ? recipeOfOptions(options, folders, context.driver())
-                              : recipeOfProtocol(options, folders, context.driver());
+                              ? recipeOfOptions(options, scenes, context.driver())
+                              : recipeOfProtocol(options, scenes, context.driver());
     RecipeRenderer renderer(folders);
     const Rendering rendering = renderer.render(recipe, options.layers);
     for (const std::string& warning : renderer.sceneWarnings())
@@ -209,7 +212,8 @@ int run(int argc, char** argv) {
     app.add_option("--member", options.member, "0 for a, 1 for b")->check(CLI::Range(0, 1));
     app.add_option("--out", options.out, "PNG; its visibility goes beside it")
         ->capture_default_str();
-    app.add_flag("--layers", options.layers, "write linear EXR of image, visibility and G-buffer too");
+    app.add_flag("--layers", options.layers,
+                 "write linear EXR of image, visibility and G-buffer too");
     CLI11_PARSE(app, argc, argv);
     if (options.devices)
         return printDevices();

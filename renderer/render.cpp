@@ -47,8 +47,8 @@ Image flipped(const std::vector<float>& values, int width, int height, int have,
                         static_cast<std::size_t>(keep));
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const std::size_t from =
-                static_cast<std::size_t>((height - 1 - y) * width + x) * static_cast<std::size_t>(have);
+            const std::size_t from = static_cast<std::size_t>((height - 1 - y) * width + x) *
+                                     static_cast<std::size_t>(have);
             for (int c = 0; c < keep; ++c)
                 image.at(x, y, c) = values[from + static_cast<std::size_t>(first + c)];
         }
@@ -65,14 +65,15 @@ Image8 displayed(const Image& linear) {
 
 void hashTargets(Sha256& hash, const gl::Target& target, int count) {
     for (int i = 0; i < count; ++i)
-        hash.add(gl::readBytes(target.colour(i), target.width(), target.height(), target.format(i)));
+        hash.add(
+            gl::readBytes(target.colour(i), target.width(), target.height(), target.format(i)));
 }
 
 Image layerOf(const gl::Target& target, int index) {
     const int have = gl::channelsOf(target.format(index));
-    return flipped(gl::readFloats(target.colour(index), target.width(), target.height(),
-                                  target.format(index)),
-                   target.width(), target.height(), have, 0, have);
+    return flipped(
+        gl::readFloats(target.colour(index), target.width(), target.height(), target.format(index)),
+        target.width(), target.height(), have, 0, have);
 }
 
 double meanOcclusion(const Image& visibility, const std::vector<float>& depth, float empty) {
@@ -80,7 +81,8 @@ double meanOcclusion(const Image& visibility, const std::vector<float>& depth, f
     std::size_t count = 0;
     for (int y = 0; y < visibility.height; ++y)
         for (int x = 0; x < visibility.width; ++x) {
-            const auto at = static_cast<std::size_t>((visibility.height - 1 - y) * visibility.width + x);
+            const auto at =
+                static_cast<std::size_t>((visibility.height - 1 - y) * visibility.width + x);
             if (depth[at] < empty) {
                 sum += 1 - static_cast<double>(visibility.at(x, y, 0));
                 ++count;
@@ -105,14 +107,11 @@ class StageClock {
 
 } // namespace
 
-std::string sceneSha256(const View& view, const Folders& folders) {
-    static std::map<std::string, std::string> known;
-    const std::string key =
-        view.file.empty() ? view.builtin : (folders.scenes / view.file).string();
-    std::string& hash = known[key];
+const std::string& SceneHashes::of(const View& view) {
+    std::string& hash = known_[view.file.empty() ? view.builtin : view.file];
     if (hash.empty())
         hash = view.file.empty() ? builtinScene(view.builtin).sha256
-                                 : sceneSha256(folders.scenes / view.file);
+                                 : sceneSha256(folders_.scenes / view.file);
     return hash;
 }
 
@@ -130,7 +129,7 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
 }
 
 Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int member,
-                  const Folders& folders, const gl::Driver& driver) {
+                  SceneHashes& scenes, const gl::Driver& driver) {
     const View& view = protocol.view(condition.view);
     const Level& level = protocol.level(condition.level);
     const Settings settings = settingsOf(
@@ -143,9 +142,9 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
     recipe.view = view;
     recipe.level = level;
     try {
-        recipe.sceneSha256 = sceneSha256(view, folders);
+        recipe.sceneSha256 = scenes.of(view);
         if (!level.environment.empty())
-            recipe.environmentSha256 = sha256File(folders.protocol / level.environment);
+            recipe.environmentSha256 = sha256File(scenes.folders().protocol / level.environment);
     } catch (const Error& error) { // of the scene's file; the protocol's line helps to find it
         throw Error(error.place().file.empty() ? view.place : Place{}, error.what());
     }
@@ -179,9 +178,10 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
     const auto mustBe = [](const std::string& what, const std::string& found,
                            const std::string& expected) {
         if (found != expected)
-            throw Error(fmt::format("expected {} with SHA-256 {}, found {}: it has changed since the "
-                                    "recipe was made; generate the stimuli again",
-                                    what, expected, found));
+            throw Error(
+                fmt::format("expected {} with SHA-256 {}, found {}: it has changed since the "
+                            "recipe was made; generate the stimuli again",
+                            what, expected, found));
     };
     if (stage_->sceneSha256 != recipe.sceneSha256) {
         stage_->light.reset();
@@ -236,11 +236,12 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
         hashTargets(inputs, gbuffer.target(), lighting.readsNormals() ? 3 : 2);
         hashTargets(inputs, light.target(), light.target().count());
         if (i == 0) {
-            firstDepth = gl::readFloats(gbuffer.depth(), recipe.width, recipe.height,
-                                        gl::Format::r32f);
+            firstDepth =
+                gl::readFloats(gbuffer.depth(), recipe.width, recipe.height, gl::Format::r32f);
             empty = frame.depth.y;
             for (int c = 0; layers && c < gbuffer.target().count(); ++c)
-                result.layers[std::array{"albedo", "depth", "normal"}[static_cast<std::size_t>(c)]] =
+                result
+                    .layers[std::array{"albedo", "depth", "normal"}[static_cast<std::size_t>(c)]] =
                     layerOf(gbuffer.target(), c);
         }
         clock.mark(times_.hash);

@@ -18,21 +18,32 @@ struct Folders {
     std::filesystem::path protocol; // environment images
 };
 
+// The hashes of scenes, each looked up once: a study shows few scenes in many conditions.
+class SceneHashes {
+  public:
+    explicit SceneHashes(Folders folders) : folders_(std::move(folders)) {}
+    const Folders& folders() const { return folders_; }
+    const std::string& of(const View& view);
+
+  private:
+    Folders folders_;
+    std::map<std::string, std::string> known_; // by file or built-in name
+};
+
 // The recipe of one image: settings complete, and the hashes of scene, environment and shader
 // texts looked up. `driver` is the one that will render it.
 Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int member,
-                  const Folders& folders, const gl::Driver& driver);
+                  SceneHashes& scenes, const gl::Driver& driver);
 
-// Hash of a view's scene (cached by path for the process: a study names few) and of the text of
-// every shader that makes an image with these settings.
-std::string sceneSha256(const View& view, const Folders& folders);
+// Hash of the text of every shader that makes an image with these settings.
 std::string shaderSha256(const Settings& settings, const Level& level);
 
 struct Rendering {
     Image8 image;     // sRGB, as shown
     Image visibility; // 1 channel
-    std::map<std::string, Image> layers; // on request: "linear" (before the display curve), "albedo",
-                                         // "normal", "depth" (of the first jittered frame)
+    std::map<std::string, Image>
+        layers;               // on request: "linear" (before the display curve), "albedo",
+                              // "normal", "depth" (of the first jittered frame)
     std::string inputsSha256; // of what composite and lighting read, for every jittered frame:
                               // albedo, depth, ambient and direct light, and normals where the
                               // lighting reads them

@@ -51,8 +51,8 @@ tinygltf::Model readModel(const fs::path& path, HashedFiles& files) {
     tinygltf::TinyGLTF reader;
     reader.SetImageLoader(keepEncoded, nullptr);
     reader.SetFsCallbacks({[](const std::string& name, void*) { return fs::exists(name); },
-                           [](const std::string& name, void*) { return name; },
-                           HashedFiles::read, nullptr, &files});
+                           [](const std::string& name, void*) { return name; }, HashedFiles::read,
+                           nullptr, &files});
     const std::string content = readFile(path);
     files.hash.add(content);
     const auto size = static_cast<unsigned>(content.size());
@@ -61,11 +61,11 @@ tinygltf::Model readModel(const fs::path& path, HashedFiles& files) {
     std::string errors, warnings;
     const bool binary = content.starts_with("glTF");
     const bool read =
-        binary ? reader.LoadBinaryFromMemory(&model, &errors, &warnings,
-                                             reinterpret_cast<const unsigned char*>(content.data()),
-                                             size, folder)
-               : reader.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size,
-                                            folder);
+        binary
+            ? reader.LoadBinaryFromMemory(&model, &errors, &warnings,
+                                          reinterpret_cast<const unsigned char*>(content.data()),
+                                          size, folder)
+            : reader.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size, folder);
     // A missing texture is only a warning to tinygltf; to us the scene would be another.
     if (!read || warnings.find("not found") != std::string::npos ||
         warnings.find("Failed to load") != std::string::npos) {
@@ -146,8 +146,8 @@ class Loader {
         to.metallicRoughnessTexture =
             textureIndex(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord,
                          false, from.name);
-        to.normalTexture = textureIndex(from.normalTexture.index, from.normalTexture.texCoord,
-                                        false, from.name);
+        to.normalTexture =
+            textureIndex(from.normalTexture.index, from.normalTexture.texCoord, false, from.name);
         to.normalScale = static_cast<float>(from.normalTexture.scale);
         to.doubleSided = from.doubleSided;
         if (from.alphaMode == "MASK")
@@ -171,8 +171,8 @@ class Loader {
         if (!node.translation.empty())
             result[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1);
         if (!node.rotation.empty())
-            result *= glm::mat4_cast(glm::dquat(node.rotation[3], node.rotation[0],
-                                                node.rotation[1], node.rotation[2]));
+            result *= glm::mat4_cast(
+                glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]));
         if (!node.scale.empty())
             for (int i = 0; i < 3; ++i)
                 result[i] *= node.scale[static_cast<std::size_t>(i)];
@@ -197,7 +197,8 @@ class Loader {
     // The elements of an accessor as floats, `components` of each, normalised integers expanded.
     std::vector<float> floats(int index, int components) const {
         const tinygltf::Accessor& accessor = model_.accessors.at(static_cast<std::size_t>(index));
-        if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) < components)
+        if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) <
+            components)
             fail(fmt::format("accessor {} has too few components", index));
         std::vector<float> result(accessor.count * static_cast<std::size_t>(components));
         forEachElement(accessor, index, [&](std::size_t i, const unsigned char* element) {
@@ -234,7 +235,8 @@ class Loader {
         return value;
     }
 
-    static float component(const unsigned char* element, const tinygltf::Accessor& accessor, int c) {
+    static float component(const unsigned char* element, const tinygltf::Accessor& accessor,
+                           int c) {
         const auto normalised = [&](float value, float largest) {
             return accessor.normalized ? std::max(value / largest, -1.0f) : value;
         };
@@ -262,11 +264,10 @@ class Loader {
             const auto& accessor = model_.accessors.at(static_cast<std::size_t>(primitive.indices));
             const int type = accessor.componentType;
             forEachElement(accessor, primitive.indices, [&](std::size_t, const unsigned char* at) {
-                result.push_back(type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT
-                                     ? load<std::uint32_t>(at, 0)
-                                 : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
-                                     ? load<std::uint16_t>(at, 0)
-                                     : load<std::uint8_t>(at, 0));
+                result.push_back(
+                    type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT     ? load<std::uint32_t>(at, 0)
+                    : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? load<std::uint16_t>(at, 0)
+                                                                     : load<std::uint8_t>(at, 0));
             });
         }
         for (const std::uint32_t index : result)
@@ -417,10 +418,9 @@ class Loader {
         const bool png = image.image.size() > 1 && image.image[0] == 0x89;
         Texture result;
         result.srgb = srgb;
-        result.image = readImage8(std::as_bytes(std::span(image.image)),
-                                  (image.uri.empty() ? image.name : image.uri) +
-                                      (png ? ".png" : ".jpg"),
-                                  4);
+        result.image =
+            readImage8(std::as_bytes(std::span(image.image)),
+                       (image.uri.empty() ? image.name : image.uri) + (png ? ".png" : ".jpg"), 4);
         if (texture.sampler >= 0) {
             const auto& sampler = model_.samplers.at(static_cast<std::size_t>(texture.sampler));
             result.repeatU = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
@@ -452,15 +452,17 @@ Bounds Scene::bounds() const {
 
 Scene loadScene(const fs::path& path) {
     if (!fs::exists(path))
-        throw Error({path.string(), 0, 0, {}}, "expected a glTF scene, found no such file; name the "
-                                               "scenes folder by --scenes or OBSCURA_SCENES");
+        throw Error({path.string(), 0, 0, {}},
+                    "expected a glTF scene, found no such file; name the "
+                    "scenes folder by --scenes or OBSCURA_SCENES");
     return Loader(path).load();
 }
 
 std::string sceneSha256(const fs::path& path) {
     if (!fs::exists(path))
-        throw Error({path.string(), 0, 0, {}}, "expected a glTF scene, found no such file; name the "
-                                               "scenes folder by --scenes or OBSCURA_SCENES");
+        throw Error({path.string(), 0, 0, {}},
+                    "expected a glTF scene, found no such file; name the "
+                    "scenes folder by --scenes or OBSCURA_SCENES");
     HashedFiles files;
     readModel(path, files);
     return files.hash.hex();

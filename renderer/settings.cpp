@@ -40,7 +40,8 @@ void Settings::set(std::string_view name, double value, const Place& place) {
     }
     const Parameter& parameter = technique_->parameters[i];
     const bool whole = parameter.unit == Unit::count || parameter.unit == Unit::flag;
-    if (!(value >= parameter.low && value <= parameter.high) || (whole && value != std::floor(value)))
+    if (!(value >= parameter.low && value <= parameter.high) ||
+        (whole && value != std::floor(value)))
         throw Error(place, fmt::format("expected {} from {} to {} for \"{}\", found {}",
                                        whole ? "a whole number" : "a number", parameter.low,
                                        parameter.high, name, value));

@@ -1,6 +1,5 @@
-#include "renderer/technique.h"
-
 #include "protocols/error.h"
+#include "renderer/technique.h"
 
 #include <fmt/format.h>
 
@@ -33,8 +32,8 @@ std::vector<glm::vec4> ballPoints(int count) {
     return points;
 }
 
-constexpr Parameter radius{"radius", Unit::metre, "how far occluders are looked for", 0.5f, 1e-4f,
-                           1e4f};
+constexpr Parameter radius{"radius", Unit::metre, "how far occluders are looked for",
+                           0.5f,     1e-4f,       1e4f};
 constexpr Parameter blur{"blur", Unit::flag, "edge-aware blur over the 4 x 4 noise tile", 1, 0, 1};
 
 constexpr Parameter samples(float value, std::string_view meaning = "points tested per pixel") {
@@ -59,28 +58,37 @@ constexpr Parameter crytekParameters[] = {
 // The accessibility curve of appendix B, with lengths in radii instead of the appendix's scene
 // units, so that one setting serves scenes of any size.
 constexpr Parameter fullOcclusion{
-    "fullOcclusion", Unit::ratio,
-    "depth difference, in radii, below which a surface in front of the pixel is ignored", 0.02f, 0,
+    "fullOcclusion",
+    Unit::ratio,
+    "depth difference, in radii, below which a surface in front of the pixel is ignored",
+    0.02f,
+    0,
     10};
 constexpr Parameter noOcclusion{
-    "noOcclusion", Unit::ratio,
-    "depth difference, in radii, beyond which a surface in front of the pixel is ignored", 1.5f,
-    0.01f, 100};
+    "noOcclusion",
+    Unit::ratio,
+    "depth difference, in radii, beyond which a surface in front of the pixel is ignored",
+    1.5f,
+    0.01f,
+    100};
 constexpr Parameter attenuation{
-    "attenuation", Unit::ratio,
-    "depth difference, in radii, at which accessibility is one half, before the power", 0.35f, 1e-3f,
+    "attenuation",
+    Unit::ratio,
+    "depth difference, in radii, at which accessibility is one half, before the power",
+    0.35f,
+    1e-3f,
     1e3f};
 constexpr Parameter power{"power", Unit::ratio, "exponent of accessibility", 2, 0.01f, 64};
 
-constexpr Parameter blizzardParameters[] = {samples(24),  radius, fullOcclusion, noOcclusion,
+constexpr Parameter blizzardParameters[] = {samples(24), radius, fullOcclusion, noOcclusion,
                                             attenuation, power,  blur};
 
 constexpr Parameter blizzardCorrectedParameters[] = {
     samples(24),
     radius,
     {"fullUntil", Unit::ratio,
-     "distance behind the surface, in radii, up to which a point counts as fully occluded", 1,
-     0, 100},
+     "distance behind the surface, in radii, up to which a point counts as fully occluded", 1, 0,
+     100},
     {"noneFrom", Unit::ratio,
      "distance behind the surface, in radii, from which a point counts as open again", 2, 0.01f,
      1000},
@@ -124,8 +132,8 @@ const Technique& technique(std::string_view id) {
             return row;
         ids.emplace_back(row.id);
     }
-    throw Error(fmt::format("expected the id of a technique, found \"{}\"{}", id,
-                            suggestion(id, ids)));
+    throw Error(
+        fmt::format("expected the id of a technique, found \"{}\"{}", id, suggestion(id, ids)));
 }
 
 } // namespace obscura

@@ -20,7 +20,8 @@ struct Destroy {
     void operator()(PangoLayout* layout) const { g_object_unref(layout); }
     void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
 };
-template <typename T> using Owned = std::unique_ptr<T, Destroy>;
+template <typename T>
+using Owned = std::unique_ptr<T, Destroy>;
 
 class Page {
   public:
@@ -69,7 +70,9 @@ class Page {
     Image8 finish() const {
         cairo_surface_flush(surface_.get());
         Image8 page{cairo_image_surface_get_width(surface_.get()),
-                    cairo_image_surface_get_height(surface_.get()), 3, {}};
+                    cairo_image_surface_get_height(surface_.get()),
+                    3,
+                    {}};
         const unsigned char* data = cairo_image_surface_get_data(surface_.get());
         const int stride = cairo_image_surface_get_stride(surface_.get());
         for (int row = 0; row < page.height; ++row)
@@ -96,9 +99,8 @@ Image8 shrunk(const Image8& from, int width, int height) {
                 int sum = 0;
                 for (int v = y0; v < y1; ++v)
                     for (int u = x0; u < x1; ++u)
-                        sum += from.pixels[static_cast<std::size_t>((v * from.width + u) *
-                                                                        from.channels +
-                                                                    c)];
+                        sum += from.pixels[static_cast<std::size_t>(
+                            (v * from.width + u) * from.channels + c)];
                 to.pixels.push_back(static_cast<std::uint8_t>(sum / ((x1 - x0) * (y1 - y0))));
             }
     return to;
@@ -148,8 +150,8 @@ Image8 contactSheet(const Manifest& manifest) {
         };
         const Image8 a = load(pair.a.image), b = load(pair.b.image);
         int at = 0;
-        for (const Image8& image : {a, b, load(pair.a.layers.at("ao")), load(pair.b.layers.at("ao")),
-                                    difference(a, b)}) {
+        for (const Image8& image :
+             {a, b, load(pair.a.layers.at("ao")), load(pair.b.layers.at("ao")), difference(a, b)}) {
             page.image(column(at), top + caption, shrunk(image, thumbnailWidth, thumbnailHeight));
             page.frame(column(at++), top + caption, thumbnailWidth, thumbnailHeight);
         }

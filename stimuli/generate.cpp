@@ -22,7 +22,8 @@ constexpr const char* manifestName = "manifest.json";
 constexpr const char* unfinishedName = "unfinished-manifest.json";
 
 double seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 // The records of earlier runs by the hash of their recipe. A manifest that cannot be read proves
@@ -143,10 +144,11 @@ Manifest finishedPart(Manifest manifest) {
 GenerateResult generate(const Protocol& protocol, const Folders& folders, const fs::path& folder,
                         bool layers, const gl::Driver& driver, const Announce& announce) {
     const std::vector<PlannedImage> images = plan(protocol);
+    SceneHashes scenes(folders);
     std::vector<Recipe> recipes; // all first: a mistake shows before the first image, not after
     for (const PlannedImage& image : images)
         recipes.push_back(makeRecipe(protocol, protocol.conditions[image.condition], image.member,
-                                     folders, driver));
+                                     scenes, driver));
     const auto earlier = earlierRecords(folder);
     GenerateResult result;
     result.manifest = emptyManifest(protocol);

@@ -35,11 +35,12 @@ void report(const GenerateResult& result, const fs::path& folder) {
     fmt::print("{} images rendered, {} kept, in {}\n", result.rendered, result.kept,
                folder.string());
     if (result.rendered > 0)
-        fmt::print("seconds: scenes and shadow maps {:.1f}, G-buffer {:.1f}, light {:.1f}, occlusion "
-                   "{:.1f}, composite {:.1f}, proof of matching {:.1f}, writing {:.1f}; peak memory "
-                   "{:.0f} MiB\n",
-                   t.scene, t.gbuffer, t.light, t.occlusion, t.composite, t.hash, result.writing,
-                   peakMemory());
+        fmt::print(
+            "seconds: scenes and shadow maps {:.1f}, G-buffer {:.1f}, light {:.1f}, occlusion "
+            "{:.1f}, composite {:.1f}, proof of matching {:.1f}, writing {:.1f}; peak memory "
+            "{:.0f} MiB\n",
+            t.scene, t.gbuffer, t.light, t.occlusion, t.composite, t.hash, result.writing,
+            peakMemory());
     for (const PairRecord& pair : result.manifest.pairs)
         fmt::print("  {:<24} mean occlusion {:<16} {:.4f}   {:<16} {:.4f}   matched {:.12}\n",
                    pair.condition, pair.a.name, pair.a.meanOcclusion, pair.b.name,
@@ -57,8 +58,7 @@ int run(int argc, char** argv) {
     app.add_option("--out", out, "stimulus folder; default stimuli-NAME");
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
     app.add_option("--device", device, "render with this device of obscura-render --devices");
-    app.add_flag("--layers", layers,
-                 "write linear EXR of image, visibility and G-buffer as well");
+    app.add_flag("--layers", layers, "write linear EXR of image, visibility and G-buffer as well");
     app.add_flag("--check", check, "check the protocol, render nothing");
     app.add_flag("--verify", verifyOnly,
                  "render every image of the folder again and compare the bytes, write nothing");
@@ -71,9 +71,10 @@ int run(int argc, char** argv) {
     const gl::Context context(device);
     std::optional<Progress> progress;
     if (check) {
+        SceneHashes scenes(folders);
         for (const Condition& condition : protocol.conditions)
             for (int member : {0, 1})
-                makeRecipe(protocol, condition, member, folders, context.driver());
+                makeRecipe(protocol, condition, member, scenes, context.driver());
         fmt::print("{}: {} conditions, all well\n", protocolPath.string(),
                    protocol.conditions.size());
     } else if (verifyOnly) {

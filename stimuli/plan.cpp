@@ -21,8 +21,9 @@ std::vector<PlannedImage> plan(const Protocol& protocol) {
         const View& view = protocol.view(condition.view);
         return std::tie(view.file, view.builtin, condition.level);
     };
-    std::stable_sort(images.begin(), images.end(),
-                     [&](const PlannedImage& a, const PlannedImage& b) { return load(a) < load(b); });
+    std::stable_sort(
+        images.begin(), images.end(),
+        [&](const PlannedImage& a, const PlannedImage& b) { return load(a) < load(b); });
     return images;
 }
 

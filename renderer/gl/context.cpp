@@ -2,9 +2,8 @@
 
 #include "protocols/error.h"
 
-#include <epoxy/gl.h>
-
 #include <epoxy/egl.h>
+#include <epoxy/gl.h>
 
 #include <fmt/format.h>
 
@@ -24,8 +23,8 @@ struct Candidate {
 
 bool isSoftware(EGLDeviceEXT device) {
     const char* extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
-    return extensions && std::string_view(extensions).find("EGL_MESA_device_software") !=
-                             std::string_view::npos;
+    return extensions &&
+           std::string_view(extensions).find("EGL_MESA_device_software") != std::string_view::npos;
 }
 
 std::vector<Candidate> candidates() {

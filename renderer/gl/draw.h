@@ -17,7 +17,7 @@ struct State {
     enum class Depth { off, reversed, forward, equal } depth = Depth::off;
     bool colour = true; // draw into the colour targets too
     bool cullBack = false;
-    bool add = false; // blend: add to what is there
+    bool add = false;                      // blend: add to what is there
     float slopeBias = 0, constantBias = 0; // polygon offset
 
     void apply() const;

@@ -53,10 +53,9 @@ std::string ShaderText::inOriginalFiles(const std::string& log) const {
     std::smatch match;
     while (std::regex_search(rest, log.cend(), match, pattern)) {
         const int line = std::stoi(match[1].str());
-        const auto after = std::upper_bound(parts_.begin(), parts_.end(), line,
-                                            [](int value, const Part& part) {
-                                                return value < part.firstLine;
-                                            });
+        const auto after =
+            std::upper_bound(parts_.begin(), parts_.end(), line,
+                             [](int value, const Part& part) { return value < part.firstLine; });
         const Part& part = *(after == parts_.begin() ? after : after - 1);
         result.append(rest, match[0].first);
         result += fmt::format("{}:{}", part.file, line - part.firstLine + part.fileLine);
@@ -80,8 +79,8 @@ ShaderObject compile(GLenum stage, const ShaderText& text, const std::string& la
     std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
     glGetShaderInfoLog(shader.name(), length, nullptr, log.data());
     log.resize(log.find_last_not_of(std::string_view("\0\n", 2)) + 1);
-    throw Error(fmt::format("shader \"{}\" does not compile:\n{}", label,
-                            text.inOriginalFiles(log)));
+    throw Error(
+        fmt::format("shader \"{}\" does not compile:\n{}", label, text.inOriginalFiles(log)));
 }
 
 } // namespace

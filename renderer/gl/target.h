@@ -24,7 +24,8 @@ Texture targetTexture(int width, int height, Format format, const std::string& l
 struct Wrap {
     bool repeatU = true, repeatV = true;
 };
-Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba, Wrap wrap);
+Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba,
+                     Wrap wrap);
 
 // Linear floats, 3 channels, filtered; repeats across, clamps at the top and bottom.
 Texture panoramaTexture(int width, int height, std::span<const float> rgb);

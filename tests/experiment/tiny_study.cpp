@@ -49,6 +49,8 @@ technique = "crytek"
 samples = 24
 [trial]
 mask = {}
+[ordering]
+participants = 3
 [texts]
 instructions = "Two images follow, one after the other."
 start = "Press Space."

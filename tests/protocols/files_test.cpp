@@ -1,6 +1,5 @@
-#include "protocols/files.h"
-
 #include "protocols/error.h"
+#include "protocols/files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
-#include "protocols/manifest.h"
-
 #include "protocols/files.h"
+#include "protocols/manifest.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -98,7 +97,8 @@ TEST(ManifestTest, AMissingFieldIsNamed) {
         readManifest(file());
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("pairs[1].a.meanOcclusion: expected this key"));
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("pairs[1].a.meanOcclusion: expected this key"));
     }
 }
 

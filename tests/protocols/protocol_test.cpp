@@ -1,5 +1,4 @@
 #include "protocols/protocol.h"
-
 #include "tests/protocols/protocol_mistakes.h"
 
 #include <gmock/gmock.h>

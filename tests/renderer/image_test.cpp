@@ -1,7 +1,6 @@
-#include "renderer/image.h"
-
 #include "protocols/error.h"
 #include "protocols/files.h"
+#include "renderer/image.h"
 
 #include <gtest/gtest.h>
 

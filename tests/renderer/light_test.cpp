@@ -36,9 +36,8 @@ double integrate(const Image& panorama, glm::dvec3 n, int channel) {
             const double theta = (y + 0.5) / panorama.height * pi;
             const glm::dvec3 d(std::sin(theta) * std::sin(phi), std::cos(theta),
                                -std::sin(theta) * std::cos(phi));
-            sum += static_cast<double>(panorama.at(x, y, channel)) *
-                   std::max(glm::dot(n, d), 0.0) * std::sin(theta) * 2 * pi * pi /
-                   (panorama.width * panorama.height);
+            sum += static_cast<double>(panorama.at(x, y, channel)) * std::max(glm::dot(n, d), 0.0) *
+                   std::sin(theta) * 2 * pi * pi / (panorama.width * panorama.height);
         }
     return sum;
 }

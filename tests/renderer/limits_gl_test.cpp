@@ -59,7 +59,8 @@ class Limits : public GlTest {
         return sum / (height * seeds);
     }
     static double centre(const Scene& scene, const Settings& settings) {
-        return centre(scene, settings, [](double v) { return v; }, 1);
+        return centre(
+            scene, settings, [](double v) { return v; }, 1);
     }
 
     // Crytek's boost undone: from A0^2 + A0 to A0.
@@ -156,12 +157,12 @@ TEST_F(Limits, CorrectedBlizzardBesideACurb) {
     const struct {
         float distance, step;
         double occlusion;
-    } cases[] = {{0.25f, 0.5f, 0.2310}, {0.5f, 0.5f, 0.1261}, {0.1f, 0.2f, 0.1290},
-                 {0.25f, 2, 0.3166}};
+    } cases[] = {
+        {0.25f, 0.5f, 0.2310}, {0.5f, 0.5f, 0.1261}, {0.1f, 0.2f, 0.1290}, {0.25f, 2, 0.3166}};
     for (const auto& c : cases)
-        EXPECT_NEAR(1 - centre(curb(c.distance, c.step),
-                               solid(unfiltered("blizzard_corrected", 4096))),
-                    c.occlusion, 0.01)
+        EXPECT_NEAR(
+            1 - centre(curb(c.distance, c.step), solid(unfiltered("blizzard_corrected", 4096))),
+            c.occlusion, 0.01)
             << c.distance << " " << c.step;
 }
 

@@ -1,13 +1,11 @@
-#include "renderer/scene.h"
-
 #include "protocols/error.h"
 #include "protocols/files.h"
+#include "renderer/scene.h"
+#include "tests/renderer/small_gltf.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -17,31 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path shared = fs::path(OBSCURA_SOURCE) / ".." / "shared" / "scenes";
-
-// One triangle in the plane z = 0, counter-clockwise from +z, with texture coordinates.
-std::string triangleBuffer() {
-    const float positions[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, uvs[] = {0, 1, 1, 1, 0, 0};
-    const std::uint16_t indices[] = {0, 1, 2, 0};
-    std::string bytes(sizeof positions + sizeof uvs + sizeof indices, '\0');
-    std::memcpy(bytes.data(), positions, sizeof positions);
-    std::memcpy(bytes.data() + 36, uvs, sizeof uvs);
-    std::memcpy(bytes.data() + 60, indices, sizeof indices);
-    return bytes;
-}
-
-std::string gltf(const std::string& node, const std::string& material, const std::string& extra) {
-    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0)" +
-           node + R"(}],"meshes":[{"primitives":[{"attributes":{"POSITION":0,"TEXCOORD_0":1},)"
-                  R"("indices":2,"material":0}]}],"materials":[{"name":"m")" +
-           material +
-           R"(}],"buffers":[{"uri":"t.bin","byteLength":68}],"bufferViews":[)"
-           R"({"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":24},)"
-           R"({"buffer":0,"byteOffset":60,"byteLength":6}],"accessors":[)"
-           R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
-           R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"},)"
-           R"({"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"}])" +
-           extra + "}";
-}
 
 class SceneFile : public testing::Test {
   protected:
@@ -54,7 +27,7 @@ class SceneFile : public testing::Test {
     }
     Scene load(const std::string& node = "", const std::string& material = "",
                const std::string& extra = "") {
-        writeFile(folder_ / "t.gltf", gltf(node, material, extra));
+        writeFile(folder_ / "t.gltf", triangleGltf(node, material, extra));
         return loadScene(folder_ / "t.gltf");
     }
     std::string errorOf(const std::string& node, const std::string& material = "",
@@ -111,8 +84,9 @@ TEST_F(SceneFile, NamesWhatIsLeftOut) {
 }
 
 TEST_F(SceneFile, RefusesWhatItRequiresAndWeCannotShow) {
-    EXPECT_THAT(errorOf("", "", R"(,"extensionsRequired":["KHR_draco_mesh_compression"],)"
-                                R"("extensionsUsed":["KHR_draco_mesh_compression"])"),
+    EXPECT_THAT(errorOf("", "",
+                        R"(,"extensionsRequired":["KHR_draco_mesh_compression"],)"
+                        R"("extensionsUsed":["KHR_draco_mesh_compression"])"),
                 testing::HasSubstr("t.gltf: the scene requires the extension "
                                    "KHR_draco_mesh_compression, which is not supported"));
 }
@@ -193,8 +167,8 @@ TEST_F(SharedScene, DerivedTangentsAgreeWithTheFiles) {
             deriveTangents(scene, mesh);
         double agree = 0, opposite = 0;
         for (std::size_t i = 0; i < given.size(); ++i) {
-            agree += glm::dot(glm::vec3(given[i].tangent), glm::vec3(scene.vertices[i].tangent)) >
-                     0.9f;
+            agree +=
+                glm::dot(glm::vec3(given[i].tangent), glm::vec3(scene.vertices[i].tangent)) > 0.9f;
             opposite += given[i].tangent.w != scene.vertices[i].tangent.w;
         }
         EXPECT_GT(agree / static_cast<double>(given.size()), 0.99) << file;

@@ -1,8 +1,7 @@
 // What must hold for every row of the technique table.
-#include "tests/renderer/occlusion_fixture.h"
-
 #include "protocols/error.h"
 #include "renderer/render.h"
+#include "tests/renderer/occlusion_fixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -163,15 +162,15 @@ TEST_F(KnownFaults, CrytekDarkensFarWallsBehindNearThings) {
     Scene scene;
     addQuad(scene, {glm::vec3(-20, -20, 0), glm::vec3(20, -20, 0), glm::vec3(20, 20, 0),
                     glm::vec3(-20, 20, 0)});
-    addQuad(scene, {glm::vec3(-1, -1, 5), glm::vec3(1, -1, 5), glm::vec3(1, 1, 5),
-                    glm::vec3(-1, 1, 5)});
+    addQuad(scene,
+            {glm::vec3(-1, -1, 5), glm::vec3(1, -1, 5), glm::vec3(1, 1, 5), glm::vec3(-1, 1, 5)});
     Camera camera;
     camera.position = {0, 0, 12};
     const auto beside = [&](const char* id) {
         Settings settings(technique(id));
         const Image image = visibilityOf(scene, camera, settings, 128, 128);
-        // The silhouette ends within column 83 of 128, and the radius is 6 pixels on the wall, whose
-        // own value is far from the block.
+        // The silhouette ends within column 83 of 128, and the radius is 6 pixels on the wall,
+        // whose own value is far from the block.
         return static_cast<double>(image.at(14, 14, 0) - image.at(85, 64, 0));
     };
     EXPECT_GT(beside("crytek"), 0.08);
@@ -179,8 +178,8 @@ TEST_F(KnownFaults, CrytekDarkensFarWallsBehindNearThings) {
 }
 
 TEST_F(KnownFaults, CrytekBrightensConvexEdges) {
-    const Image image = visibilityOf(blockScene(1), cameraAt(1), Settings(technique("crytek")), 192,
-                                     128);
+    const Image image =
+        visibilityOf(blockScene(1), cameraAt(1), Settings(technique("crytek")), 192, 128);
     EXPECT_GT(*std::max_element(image.pixels.begin(), image.pixels.end()), 0.95f);
     EXPECT_LT(meanOf(image), 0.78);
 }
