@@ -72,13 +72,16 @@ class Groups {
 
 struct Patch {
     int facing = 0;
+    float density = 1;
     std::vector<std::size_t> triangles;
-    glm::vec2 low{1e9F}, high{-1e9F}; // on the plane, metres
-    glm::vec2 corner{0};              // in the atlas, metres
+    glm::vec2 low{1e9F}, high{-1e9F}; // on the plane, metres x density
+    glm::vec2 corner{0};              // in the atlas, the same
     glm::vec2 size() const { return high - low; }
+    glm::vec2 flat(glm::vec3 p) const { return density * flattened(p, facing); }
 };
 
-std::vector<Patch> patchesOf(const Shape& shape, const std::vector<int>& part) {
+std::vector<Patch> patchesOf(const Shape& shape, const std::vector<int>& part,
+                             const std::vector<float>& density) {
     const std::vector<glm::vec3> normals = calmNormals(shape);
     const std::size_t count = shape.indices.size() / 3;
     Groups groups(count);
@@ -94,9 +97,10 @@ std::vector<Patch> patchesOf(const Shape& shape, const std::vector<int>& part) {
     for (std::size_t i = 0; i < count; ++i) {
         Patch& patch = patches[groups.find(i)];
         patch.facing = labels[i] % 6;
+        patch.density = density[static_cast<std::size_t>(labels[i] / 6)];
         patch.triangles.push_back(i);
         for (const std::uint32_t vertex : triangleAt(shape, i)) {
-            const glm::vec2 p = flattened(shape.vertices[vertex].position, patch.facing);
+            const glm::vec2 p = patch.flat(shape.vertices[vertex].position);
             patch.low = glm::min(patch.low, p);
             patch.high = glm::max(patch.high, p);
         }
@@ -132,8 +136,9 @@ bool shelve(std::vector<Patch>& patches, float side) {
 
 } // namespace
 
-std::vector<std::uint32_t> unwrap(Shape& shape, const std::vector<int>& part) {
-    std::vector<Patch> patches = patchesOf(shape, part);
+std::vector<std::uint32_t> unwrap(Shape& shape, const std::vector<int>& part,
+                                  const std::vector<float>& density) {
+    std::vector<Patch> patches = patchesOf(shape, part, density);
     float side = 1;
     while (!shelve(patches, side))
         side *= 1.03F;

@@ -2,6 +2,7 @@
 
 #include "renderer/builtin_atlas.h"
 #include "renderer/builtin_noise.h"
+#include "renderer/builtin_parallel.h"
 #include "renderer/builtin_textures.h"
 
 #include <glm/gtc/constants.hpp>
@@ -14,7 +15,7 @@ namespace obscura::builtin {
 
 namespace {
 
-constexpr float cell = 0.009F; // of the surface net
+constexpr float clothCell = 0.010F, fineCell = 0.0048F; // of the surface nets, metres
 constexpr int atlasSize = 1024;
 
 struct Nearest {
@@ -51,14 +52,20 @@ float openness(const Body& body, const Vertex& vertex) {
     return 1 - shade;
 }
 
-Bounds boundsOf(const Body& body) {
+Shape meshOf(const Body& body, bool fine) {
+    Body parts;
     Bounds bounds{glm::vec3(1e9F), glm::vec3(-1e9F)};
     for (const BodyPart& part : body) {
+        if (part.fine != fine)
+            continue;
+        parts.push_back(part);
         bounds.low = glm::min(bounds.low, part.centre - part.radius);
         bounds.high = glm::max(bounds.high, part.centre + part.radius);
     }
-    bounds.low.y = -2 * cell; // it stands on the floor
-    return bounds;
+    const float cell = fine ? fineCell : clothCell;
+    bounds.low.y = std::max(bounds.low.y, -2 * cell); // it stands on the floor
+    return surfaceOf([&](glm::vec3 p) { return std::max(distanceTo(parts, p), -p.y); }, bounds,
+                     cell);
 }
 
 // Warm shade in the creases, a rubbed light on the ridges, and the brush's own unevenness.
@@ -74,26 +81,29 @@ glm::vec3 painted(glm::vec3 colour, float open, float brush) {
 float distanceTo(const Body& body, glm::vec3 p) { return nearestPart(body, p).distance; }
 
 void addFigure(Scene& scene, const char* name, const Body& body, const glm::mat4& place) {
-    const Field field = [&](glm::vec3 p) { return std::max(distanceTo(body, p), -p.y); };
-    Shape shape = surfaceOf(field, boundsOf(body), cell);
-    std::vector<int> parts;
-    std::vector<float> open;
-    for (const Vertex& vertex : shape.vertices) {
-        parts.push_back(static_cast<int>(nearestPart(body, vertex.position).part));
-        open.push_back(openness(body, vertex));
-    }
-    const std::vector<std::uint32_t> origin = unwrap(shape, parts);
+    Shape shape = meshOf(body, false);
+    shape.add(meshOf(body, true));
+    std::vector<int> parts(shape.vertices.size());
+    std::vector<float> open(shape.vertices.size()), density;
+    onBothCores(parts.size(), [&](std::size_t i) {
+        parts[i] = static_cast<int>(nearestPart(body, shape.vertices[i].position).part);
+        open[i] = openness(body, shape.vertices[i]);
+    });
+    for (const BodyPart& part : body)
+        density.push_back(part.fine ? 2.0F : 1.0F);
+    const std::vector<std::uint32_t> origin = unwrap(shape, parts, density);
     const Noise noise("builtin/brush");
     const auto brush = [&](const std::array<std::uint32_t, 3>& t, glm::vec3 weights) {
-        glm::vec3 p(0);
+        glm::vec3 p(0), colour(0);
         float openHere = 0;
-        for (std::size_t k = 0; k < 3; ++k) {
-            p += weights[static_cast<int>(k)] * shape.vertices[t[k]].position;
-            openHere += weights[static_cast<int>(k)] * open[origin[t[k]]];
+        for (int k = 0; k < 3; ++k)
+            p += weights[k] * shape.vertices[t[static_cast<std::size_t>(k)]].position;
+        for (int k = 0; k < 3; ++k) { // so that colours run into each other within a triangle
+            const std::uint32_t vertex = origin[t[static_cast<std::size_t>(k)]];
+            openHere += weights[k] * open[vertex];
+            colour += weights[k] * body[static_cast<std::size_t>(parts[vertex])].colour(p);
         }
-        const auto part = static_cast<std::size_t>(parts[origin[t[0]]]);
-        const float stroke = noise.value(p * 60.0F) + 0.5F * noise.value(p * 160.0F);
-        return painted(body[part].colour(p), openHere, stroke);
+        return painted(colour, openHere, noise.value(p * 60.0F) + 0.5F * noise.value(p * 160.0F));
     };
     Material material{.name = name};
     material.baseColourTexture = addColourTexture(scene, paintAtlas(shape, atlasSize, brush));
@@ -158,9 +168,10 @@ float gown(glm::vec3 p, const std::vector<Girth>& girths) {
 
 float folds(float angle, float height, float count) {
     const float drift = 1.3F * std::sin(2 * angle + 0.7F) + 0.5F * std::sin(3.5F * height + angle);
-    const float broad = std::abs(std::sin(0.5F * (count * angle + drift)));
+    const float wave = std::sin(0.5F * (count * angle + drift));
+    const float broad = std::sqrt(wave * wave + 0.015F); // valleys that a mesh can follow
     const float narrow = std::abs(std::sin(count * angle + 2.5F * drift + 2 * height));
-    return -0.75F * (1 - std::sqrt(broad)) - 0.25F * (1 - narrow);
+    return -0.75F * (1 - std::sqrt(std::min(1.0F, broad))) - 0.25F * (1 - narrow);
 }
 
 } // namespace obscura::builtin

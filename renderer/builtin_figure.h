@@ -16,6 +16,7 @@ struct BodyPart {
     float radius;
     std::function<glm::vec3(glm::vec3)> colour; // sRGB code values by place, before occlusion
     float blend = 0.01F;                        // fillet with the parts before it
+    bool fine = false; // a head or hand: a finer mesh and texture than clothes need
 };
 using Body = std::vector<BodyPart>;
 

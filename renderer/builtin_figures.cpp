@@ -40,9 +40,9 @@ vec3 painted(vec3 p) { // a face at the origin: lips, brows, eyes
         return {0.15F, 0.11F, 0.10F};
     if (p.z > 0.05F && glm::distance(q, {0.030F, 0.005F, 0.079F}) < 0.0085F)
         return {0.90F, 0.87F, 0.82F};
-    if (p.z > 0.06F && glm::length(glm::vec2(q.x / 2, q.y + 0.058F)) < 0.012F)
+    if (p.z > 0.06F && glm::length(glm::vec2(q.x / 2.2F, q.y + 0.058F)) < 0.0095F)
         return {0.68F, 0.38F, 0.33F};
-    if (p.z > 0.04F && std::abs(q.y - 0.034F + 6 * (q.x - 0.03F) * (q.x - 0.03F)) < 0.004F &&
+    if (p.z > 0.04F && std::abs(q.y - 0.035F + 9 * (q.x - 0.028F) * (q.x - 0.028F)) < 0.0028F &&
         q.x > 0.010F && q.x < 0.052F)
         return {0.30F, 0.20F, 0.15F};
     return skin;
@@ -92,20 +92,27 @@ float readersMantle(vec3 p) {
     const float warp = 2.2F * std::sin(5 * p.x + 3 * p.y) + 1.2F * std::sin(11 * p.x - 7 * p.z);
     const float lines = std::abs(std::sin(24 * slant + warp));
     const float depth = 0.020F + 0.008F * std::sin(7 * p.y + 4 * p.x);
-    float d = gown(p, readersGown) - 0.026F - depth * std::sqrt(lines);
+    float d = gown(p, readersGown) - 0.026F - depth * std::sqrt(lines + 0.05F);
     d = std::max(d, 0.6F * (-0.34F - slant));
     d = std::max(d, 0.6F * (slant - 0.34F));
     return 0.8F * std::max(d, p.y - 1.46F);
 }
 
 float readersVeil(vec3 p) { // a hood that falls on the shoulders
-    const vec3 q = p - vec3(0, 1.66F, 0);
+    const vec3 q = p - vec3(0, 1.635F, 0);
     float d = ellipsoid(q - vec3(0, 0.012F, -0.030F), {0.108F, 0.128F, 0.118F});
     d = merge(d, limb(q, {0, -0.02F, -0.06F}, {0, -0.30F, -0.075F}, 0.09F, 0.14F), 0.06F);
     const float wave = std::abs(std::sin(9 * std::atan2(q.x, -q.z - 0.02F)));
     d += 0.010F * (1 - std::sqrt(wave)) * glm::smoothstep(0.04F, -0.1F, q.y);
-    d = cut(d, ellipsoid(q - vec3(0, -0.03F, 0.06F), {0.076F, 0.128F, 0.130F}), 0.012F);
+    d = cut(d, ellipsoid(q - vec3(0, -0.035F, 0.075F), {0.074F, 0.108F, 0.125F}), 0.012F);
     return cut(d, limb(q, {0, -0.02F, 0.0F}, {0, -0.30F, 0.06F}, 0.07F, 0.10F), 0.02F);
+}
+
+float readersHair(vec3 p) {
+    const vec3 q = p - vec3(0, 1.635F, 0);
+    const float d = ellipsoid(q - vec3(0, 0.018F, -0.010F), {0.084F, 0.102F, 0.100F}) +
+                    0.003F * std::sin(130 * q.x + 30 * q.y * q.x);
+    return cut(d, ellipsoid(q - vec3(0, -0.045F, 0.075F), {0.060F, 0.098F, 0.125F}), 0.01F);
 }
 
 vec3 inBook(vec3 p) { // one of the two leaves: x from the spine, y up from the page
@@ -138,26 +145,22 @@ Body reader() {
         return handAt({std::abs(p.x), p.y, p.z}, {0.125F, 1.095F, 0.20F}, {-0.35F, 0.15F, 1},
                       {-0.35F, 1, 0.1F}, false);
     };
+    const auto neck = [](vec3 p) {
+        return limb(p, {0, 1.42F, -0.012F}, {0, 1.60F, 0}, 0.060F, 0.050F);
+    };
+    const auto atFace = [](vec3 p) { return turned(p - vec3(0, 1.635F, 0.012F), 0, -10); };
     return {
         {readersDress, {0, 0.75F, 0}, 0.86F, bordered(dress, 0), 0.01F},
         {readersMantle, {0, 1.05F, 0}, 0.55F, plain(mantle), 0.006F},
         {arm, {0, 1.22F, 0.08F}, 0.38F, plain(dress), 0.012F},
-        {hands, {0, 1.12F, 0.27F}, 0.26F, plain(skin), 0.004F},
-        {cover, {0, 1.17F, 0.285F}, 0.24F, plain({0.45F, 0.13F, 0.12F}), 0.002F},
-        {pages, {0, 1.17F, 0.285F}, 0.23F, script, 0.001F},
-        {[](vec3 p) {
-             return limb(p, {0, 1.42F, -0.012F}, {0, 1.60F, 0}, 0.060F, 0.050F);
-         },
-         {0, 1.5F, 0},
-         0.16F,
-         plain(skin),
-         0.02F},
-        {[](vec3 p) { return face(turned(p - vec3(0, 1.665F, 0.012F), 0, -10)); },
-         {0, 1.66F, 0.02F},
-         0.15F,
-         [](vec3 p) { return painted(turned(p - vec3(0, 1.665F, 0.012F), 0, -10)); },
-         0.012F},
-        {readersVeil, {0, 1.56F, -0.04F}, 0.33F, plain(linen), 0.006F},
+        {hands, {0, 1.12F, 0.27F}, 0.26F, plain(skin), 0.004F, true},
+        {cover, {0, 1.17F, 0.285F}, 0.24F, plain({0.45F, 0.13F, 0.12F}), 0.002F, true},
+        {pages, {0, 1.17F, 0.285F}, 0.23F, script, 0.001F, true},
+        {neck, {0, 1.5F, 0}, 0.16F, plain(skin), 0.02F, true},
+        {[=](vec3 p) { return face(atFace(p)); }, {0, 1.63F, 0.02F}, 0.15F,
+         [=](vec3 p) { return painted(atFace(p)); }, 0.012F, true},
+        {readersHair, {0, 1.65F, -0.01F}, 0.12F, plain({0.28F, 0.18F, 0.12F}), 0.004F, true},
+        {readersVeil, {0, 1.53F, -0.04F}, 0.33F, plain(linen), 0.004F, true},
     };
 }
 
@@ -213,10 +216,10 @@ float guardsCloak(vec3 p) { // open in front, fastened on the shoulders
 }
 
 float guardsHair(vec3 p) {
-    const vec3 q = p - vec3(0, 1.755F, 0);
-    float d = ellipsoid(q - vec3(0, 0.026F, -0.024F), {0.088F, 0.100F, 0.098F});
+    const vec3 q = p - vec3(0, 1.72F, 0);
+    float d = ellipsoid(q - vec3(0, 0.024F, -0.012F), {0.090F, 0.106F, 0.106F});
     d = merge(d, limb(q, {0, -0.02F, -0.06F}, {0, -0.13F, -0.065F}, 0.072F, 0.065F), 0.03F);
-    d = cut(d, ellipsoid(q - vec3(0, -0.045F, 0.085F), {0.066F, 0.100F, 0.098F}), 0.012F);
+    d = cut(d, ellipsoid(q - vec3(0, -0.050F, 0.095F), {0.064F, 0.100F, 0.100F}), 0.012F);
     const vec3 beard = q - vec3(0, -0.105F, 0.058F);
     float b = ellipsoid(beard, {0.050F, 0.060F, 0.034F});
     b = merge(b,
@@ -234,11 +237,11 @@ float guardsHair(vec3 p) {
 }
 
 float guardsCirclet(vec3 p) {
-    const vec3 q = turned(p - vec3(0, 1.795F, -0.012F), 0, 8);
+    const vec3 q = turned(p - vec3(0, 1.762F, -0.008F), 0, 8);
     const float ring =
-        std::max(std::abs(glm::length(glm::vec2(q.x / 0.093F, q.z / 0.104F)) - 1) * 0.09F - 0.006F,
+        std::max(std::abs(glm::length(glm::vec2(q.x / 0.096F, q.z / 0.108F)) - 1) * 0.09F - 0.006F,
                  std::abs(q.y) - 0.013F);
-    return std::min(ring, glm::distance(q, {0, 0.004F, 0.104F}) - 0.014F);
+    return std::min(ring, glm::distance(q, {0, 0.004F, 0.108F}) - 0.014F);
 }
 
 float sword(vec3 p) { // point down before the feet
@@ -256,6 +259,13 @@ float sword(vec3 p) { // point down before the feet
                               0.002F * std::sin(300 * q.y));
     return std::min({blade, hilt, glm::distance(q, {0, 1.13F, 0}) - 0.028F,
                      glm::distance(vec3(std::abs(q.x), q.y, q.z), {0.135F, 0.904F, 0}) - 0.019F});
+}
+
+float collar(vec3 p) { // of fur, where the cloak is fastened
+    const vec3 q = turned(p - vec3(0, 1.495F, -0.015F), 0, 14);
+    const float ring = (glm::length(glm::vec2(q.x / 0.155F, q.z / 0.115F)) - 1) * 0.115F;
+    const float tufts = 0.006F * std::sin(90 * q.x) * std::sin(80 * q.y + 3) * std::sin(85 * q.z);
+    return 0.9F * (glm::length(glm::vec2(ring, q.y)) - 0.036F + tufts);
 }
 
 float belt(vec3 p) {
@@ -288,35 +298,27 @@ Body guard() {
         const vec3 r = q - vec3(0.016F, -0.028F, 0);
         return std::min(upper, std::max(ellipsoid(r, {0.094F, 0.074F, 0.095F}), -0.030F - r.y));
     };
-    const vec3 eyes(0, 1.755F, 0.008F);
+    const auto neck = [](vec3 p) {
+        return limb(p, {0, 1.48F, -0.01F}, {0, 1.68F, 0}, 0.066F, 0.056F);
+    };
+    const vec3 head(0, 1.72F, 0.008F);
     return {
         {guardsTunicAt, {0, 1.0F, 0}, 0.66F, bordered(tunic, 0.47F), 0.01F},
         {guardsLegs, {0, 0.45F, 0}, 0.50F, plain({0.36F, 0.33F, 0.28F}), 0.01F},
         {guardsBoots, {0, 0.2F, 0.04F}, 0.36F, plain(leather), 0.004F},
         {guardsCloak, {0, 0.80F, -0.12F}, 0.95F, bordered(cloak, 0.07F), 0.004F},
         {arm, {0, 1.27F, 0.08F}, 0.42F, plain(tunic), 0.012F},
-        {pauldron, {0, 1.43F, 0}, 0.34F, plain(steel), 0.002F},
         {belt, {0, 1.07F, 0}, 0.24F, plain(leather), 0.003F},
-        {sword,
-         {0, 0.57F, 0.30F},
-         0.61F,
-         [](vec3 p) { return p.y > 0.885F ? gold : steel; },
-         0.002F},
-        {hands, {0, 1.09F, 0.27F}, 0.22F, plain(skin), 0.003F},
-        {[](vec3 p) {
-             return limb(p, {0, 1.50F, -0.01F}, {0, 1.69F, 0}, 0.066F, 0.056F);
-         },
-         {0, 1.6F, 0},
-         0.17F,
-         plain(skin),
-         0.02F},
-        {[=](vec3 p) { return face((p - eyes) / 1.05F) * 1.05F; },
-         {0, 1.75F, 0.02F},
-         0.16F,
-         [=](vec3 p) { return painted((p - eyes) / 1.05F); },
-         0.012F},
-        {guardsHair, {0, 1.70F, -0.01F}, 0.24F, plain(hair), 0.004F},
-        {guardsCirclet, {0, 1.795F, -0.01F}, 0.14F, plain(gold), 0.002F},
+        {collar, {0, 1.495F, -0.01F}, 0.24F, plain({0.45F, 0.38F, 0.32F}), 0.004F, true},
+        {pauldron, {0, 1.43F, 0}, 0.34F, plain(steel), 0.002F, true},
+        {sword, {0, 0.57F, 0.30F}, 0.61F, [](vec3 p) { return p.y > 0.885F ? gold : steel; },
+         0.002F, true},
+        {hands, {0, 1.09F, 0.27F}, 0.22F, plain(skin), 0.003F, true},
+        {neck, {0, 1.6F, 0}, 0.17F, plain(skin), 0.02F, true},
+        {[=](vec3 p) { return face((p - head) / 1.05F) * 1.05F; }, {0, 1.72F, 0.02F}, 0.16F,
+         [=](vec3 p) { return painted((p - head) / 1.05F); }, 0.012F, true},
+        {guardsHair, {0, 1.67F, -0.01F}, 0.24F, plain(hair), 0.004F, true},
+        {guardsCirclet, {0, 1.76F, -0.01F}, 0.14F, plain(gold), 0.002F, true},
     };
 }
 
@@ -330,7 +332,7 @@ Shape plinth() {
 
 // A blind arcade behind the figures, so that their heads stand before stone and not sky.
 void addWall(Shape& ashlarWork, Shape& limestoneWork) {
-    const ArchedWall wall{1.6F, 0.62F, 1.75F, 3.1F, 0.3F, 0};
+    const ArchedWall wall{1.6F, 0.58F, 1.75F, 3.1F, 0.3F, 0};
     const Shape ring = voussoirs(wall, 11, 0.2F), post = pier({0.30F, 0.2F}, wall.springing);
     for (int i = -2; i <= 2; ++i) {
         const glm::mat4 place = at({wall.bay * part(i, 1), 0, -1.75F});

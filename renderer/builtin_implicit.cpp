@@ -1,9 +1,10 @@
 #include "renderer/builtin_implicit.h"
 
+#include "renderer/builtin_parallel.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <thread>
 #include <utility>
 
 namespace obscura::builtin {
@@ -51,17 +52,6 @@ glm::vec3 turned(glm::vec3 p, int axis, float degrees) {
 }
 
 namespace {
-
-// Work on item 0 ... count - 1, each of which stands alone.
-template <typename Work>
-void onBothCores(std::size_t count, const Work& work) {
-    const auto half = [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            work(i);
-    };
-    const std::jthread other(half, count / 2, count);
-    half(0, count / 2);
-}
 
 // In a crease finer than a cell the surface may fold back on itself: the vertices of a triangle
 // that faces against their normals move to the middle of their neighbours.

@@ -1,10 +1,10 @@
 #include "renderer/builtin_textures.h"
 
+#include "renderer/builtin_parallel.h"
 #include "renderer/builtin_shapes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -63,20 +63,14 @@ int addColourTexture(Scene& scene, Image8 image) {
 int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Painter& painter) {
     Texture colour = blank(canvas.size, true), gloss = blank(canvas.size, false);
     std::vector<float> heights(gloss.image.pixels.size() / 4);
-    const auto paintRows = [&](int first) {
-        for (int y = first; y < canvas.size; y += 2)
-            for (int x = 0; x < canvas.size; ++x) {
-                const Texel texel = painter((glm::vec2(x, y) + 0.5F) / part(canvas.size, 1));
-                const auto pixel = static_cast<std::size_t>(y * canvas.size + x);
-                setTexel(colour.image, pixel, {texel.colour, texel.alpha});
-                setTexel(gloss.image, pixel, {1, texel.roughness, 0, 1});
-                heights[pixel] = texel.height;
-            }
-    };
-    { // most of a scene's building time: two cores share it
-        const std::jthread evenRows(paintRows, 0);
-        paintRows(1);
-    }
+    onBothCores(heights.size(), [&](std::size_t pixel) {
+        const int index = static_cast<int>(pixel);
+        const glm::vec2 place(index % canvas.size, index / canvas.size);
+        const Texel texel = painter((place + 0.5F) / part(canvas.size, 1));
+        setTexel(colour.image, pixel, {texel.colour, texel.alpha});
+        setTexel(gloss.image, pixel, {1, texel.roughness, 0, 1});
+        heights[pixel] = texel.height;
+    });
     colour.repeatU = colour.repeatV = material.alphaCutoff == 0;
     material.baseColourTexture = keep(scene, std::move(colour));
     if (canvas.relief)

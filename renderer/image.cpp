@@ -118,6 +118,8 @@ void writeExr(const std::filesystem::path& path, const Image& image,
                          depth32 ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::HALF);
     spec.channelnames.assign(channelNames.begin(), channelNames.end());
     spec.attribute("compression", "zip");
+    // Else OpenImageIO writes the time of day, and no two files are alike.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
     spec.attribute("oiio:ColorSpace", "Linear");
     write(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
 }
