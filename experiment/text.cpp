@@ -295,9 +295,11 @@ DrawnPage drawPage(const Page& page, int width, int height, int grey) {
     cairo_paint(cairo.get());
 
     const double largest = std::min(height / 27.0, width / 40.0);
-    for (double em = largest; em >= 0.6 * largest; em -= 0.05 * largest)
-        if (auto options = trySize(cairo.get(), page, palette, width, height, std::round(em)))
+    for (int percent = 100; percent >= 60; percent -= 5) {
+        const double em = std::round(largest * percent / 100);
+        if (auto options = trySize(cairo.get(), page, palette, width, height, em))
             return {rgb(surface.get(), width, height), std::move(*options)};
+    }
     throw Error(fmt::format("a text is too long for a screen of {}x{} pixels, even in small type: "
                             "\"{:.60}...\"; shorten it in the protocol",
                             width, height, page.text));

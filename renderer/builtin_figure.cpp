@@ -15,7 +15,7 @@ namespace obscura::builtin {
 
 namespace {
 
-constexpr float clothCell = 0.010F, fineCell = 0.0048F; // of the surface nets, metres
+constexpr float clothCell = 0.0105F, fineCell = 0.0060F; // of the surface nets, metres
 constexpr int atlasSize = 1024;
 
 struct Nearest {
@@ -43,7 +43,7 @@ Nearest nearestPart(const Body& body, glm::vec3 p) {
 // 1 in the open, 0 in a deep crease: how much nearer the surface comes than a plane would, a few
 // steps out along the normal (Evans, "Fast approximations for global illumination", 2006).
 float openness(const Body& body, const Vertex& vertex) {
-    constexpr std::array<float, 5> steps{0.008F, 0.02F, 0.045F, 0.09F, 0.17F};
+    constexpr std::array<float, 4> steps{0.010F, 0.028F, 0.07F, 0.15F};
     float shade = 0;
     for (const float step : steps) {
         const float free = distanceTo(body, vertex.position + step * vertex.normal);
@@ -90,7 +90,7 @@ void addFigure(Scene& scene, const char* name, const Body& body, const glm::mat4
         open[i] = openness(body, shape.vertices[i]);
     });
     for (const BodyPart& part : body)
-        density.push_back(part.fine ? 2.0F : 1.0F);
+        density.push_back(part.fine && part.radius < 0.3F ? 2.0F : 1.0F); // faces and hands
     const std::vector<std::uint32_t> origin = unwrap(shape, parts, density);
     const Noise noise("builtin/brush");
     const auto brush = [&](const std::array<std::uint32_t, 3>& t, glm::vec3 weights) {
@@ -118,23 +118,17 @@ float face(glm::vec3 p) {
     const glm::vec3 q(std::abs(p.x), p.y, p.z);
     float d = ellipsoid(p - glm::vec3(0, 0.020F, -0.008F), {0.074F, 0.092F, 0.090F}); // skull
     d = merge(d, ellipsoid(p - glm::vec3(0, -0.040F, 0.022F), {0.054F, 0.068F, 0.060F}), 0.03F);
-    d = merge(d, limb(p, {0, -0.098F, 0.058F}, {0, -0.092F, 0.064F}, 0.017F, 0.014F), 0.03F);
-    d = merge(d, limb(q, {0.008F, 0.026F, 0.084F}, {0.046F, 0.028F, 0.064F}, 0.010F, 0.008F),
-              0.016F);
+    d = withLimbs(d, q, {{{0, -0.098F, 0.058F}, {0, -0.092F, 0.064F}, 0.017F, 0.014F, 0.03F},
+                         {{0.008F, 0.026F, 0.084F}, {0.046F, 0.028F, 0.064F}, 0.010F, 0.008F, 0.016F}});
     d = cut(d, ellipsoid(q - glm::vec3(0.030F, 0.006F, 0.086F), {0.019F, 0.013F, 0.016F}), 0.014F);
-    d = merge(d, limb(q, {0.045F, -0.022F, 0.052F}, {0.050F, -0.018F, 0.030F}, 0.014F, 0.012F),
-              0.02F);
-    d = merge(d, limb(p, {0, 0.020F, 0.084F}, {0, -0.024F, 0.103F}, 0.008F, 0.012F),
-              0.012F); // nose
-    d = merge(d, limb(q, {0.0F, -0.029F, 0.094F}, {0.012F, -0.029F, 0.086F}, 0.008F, 0.008F),
-              0.008F);
+    d = withLimbs(d, q, {{{0.045F, -0.022F, 0.052F}, {0.050F, -0.018F, 0.030F}, 0.014F, 0.012F, 0.02F},
+                         {{0, 0.020F, 0.084F}, {0, -0.024F, 0.103F}, 0.008F, 0.012F, 0.012F}, // nose
+                         {{0, -0.029F, 0.094F}, {0.012F, -0.029F, 0.086F}, 0.008F, 0.008F, 0.008F}});
     d = cut(d, limb(q, {0, -0.056F, 0.092F}, {0.022F, -0.058F, 0.080F}, 0.004F, 0.002F), 0.008F);
-    d = merge(d, limb(q, {0, -0.050F, 0.083F}, {0.018F, -0.054F, 0.075F}, 0.006F, 0.003F), 0.006F);
-    d = merge(d, limb(q, {0, -0.065F, 0.080F}, {0.014F, -0.063F, 0.075F}, 0.008F, 0.004F), 0.008F);
-    // Eyes, with a lid line: the ball stands a little out of its socket.
-    d = merge(d, glm::distance(q, {0.030F, 0.005F, 0.066F}) - 0.0135F, 0.004F);
-    return merge(d, ellipsoid(q - glm::vec3(0.076F, 0.0F, -0.006F), {0.011F, 0.027F, 0.017F}),
-                 0.008F);
+    d = withLimbs(d, q, {{{0, -0.050F, 0.083F}, {0.018F, -0.054F, 0.075F}, 0.006F, 0.003F, 0.006F},
+                         {{0, -0.065F, 0.080F}, {0.014F, -0.063F, 0.075F}, 0.008F, 0.004F, 0.008F},
+                         {{0.030F, 0.005F, 0.066F}, {0.030F, 0.006F, 0.066F}, 0.0135F, 0.0135F, 0.004F}});
+    return merge(d, ellipsoid(q - glm::vec3(0.076F, 0, -0.006F), {0.011F, 0.027F, 0.017F}), 0.008F);
 }
 
 float hand(glm::vec3 p) {
@@ -142,15 +136,12 @@ float hand(glm::vec3 p) {
     d = merge(d, ellipsoid(p - glm::vec3(0, 0.045F, 0), {0.040F, 0.046F, 0.017F}), 0.02F);
     for (int i = 0; i < 4; ++i) {
         const float x = 0.019F * (part(i, 1) - 1.5F), reach = i == 3 || i == 0 ? 0.85F : 1.0F;
-        const glm::vec3 knuckle(x, 0.080F, 0.004F),
-            middle(1.15F * x, 0.080F + 0.035F * reach, 0.018F);
-        d = merge(d, limb(p, knuckle, middle, 0.0105F, 0.0095F), 0.006F);
-        d = merge(d,
-                  limb(p, middle, middle + reach * glm::vec3(0, 0.012F, 0.036F), 0.0095F, 0.007F),
-                  0.003F);
+        const glm::vec3 knuckle(x, 0.080F, 0.004F), middle(1.15F * x, 0.080F + 0.035F * reach, 0.018F);
+        const glm::vec3 tip = middle + reach * glm::vec3(0, 0.012F, 0.036F);
+        d = withLimbs(d, p, {{knuckle, middle, 0.0105F, 0.0095F, 0.006F},
+                             {middle, tip, 0.0095F, 0.007F, 0.003F}});
     }
-    return merge(d, limb(p, {-0.030F, 0.03F, 0.004F}, {-0.050F, 0.062F, 0.034F}, 0.014F, 0.009F),
-                 0.012F);
+    return withLimbs(d, p, {{{-0.030F, 0.03F, 0.004F}, {-0.050F, 0.062F, 0.034F}, 0.014F, 0.009F, 0.012F}});
 }
 
 float gown(glm::vec3 p, const std::vector<Girth>& girths) {

@@ -100,7 +100,7 @@ float readersMantle(vec3 p) {
 
 float readersVeil(vec3 p) { // a hood that falls on the shoulders
     const vec3 q = p - vec3(0, 1.635F, 0);
-    float d = ellipsoid(q - vec3(0, 0.012F, -0.030F), {0.108F, 0.128F, 0.118F});
+    float d = ellipsoid(q - vec3(0, 0.012F, -0.020F), {0.110F, 0.130F, 0.130F});
     d = merge(d, limb(q, {0, -0.02F, -0.06F}, {0, -0.30F, -0.075F}, 0.09F, 0.14F), 0.06F);
     const float wave = std::abs(std::sin(9 * std::atan2(q.x, -q.z - 0.02F)));
     d += 0.010F * (1 - std::sqrt(wave)) * glm::smoothstep(0.04F, -0.1F, q.y);
@@ -110,7 +110,7 @@ float readersVeil(vec3 p) { // a hood that falls on the shoulders
 
 float readersHair(vec3 p) {
     const vec3 q = p - vec3(0, 1.635F, 0);
-    const float d = ellipsoid(q - vec3(0, 0.018F, -0.010F), {0.084F, 0.102F, 0.100F}) +
+    const float d = ellipsoid(q - vec3(0, 0.018F, -0.010F), {0.088F, 0.107F, 0.105F}) +
                     0.003F * std::sin(130 * q.x + 30 * q.y * q.x);
     return cut(d, ellipsoid(q - vec3(0, -0.045F, 0.075F), {0.060F, 0.098F, 0.125F}), 0.01F);
 }
@@ -157,8 +157,12 @@ Body reader() {
         {cover, {0, 1.17F, 0.285F}, 0.24F, plain({0.45F, 0.13F, 0.12F}), 0.002F, true},
         {pages, {0, 1.17F, 0.285F}, 0.23F, script, 0.001F, true},
         {neck, {0, 1.5F, 0}, 0.16F, plain(skin), 0.02F, true},
-        {[=](vec3 p) { return face(atFace(p)); }, {0, 1.63F, 0.02F}, 0.15F,
-         [=](vec3 p) { return painted(atFace(p)); }, 0.012F, true},
+        {[=](vec3 p) { return face(atFace(p)); },
+         {0, 1.63F, 0.02F},
+         0.15F,
+         [=](vec3 p) { return painted(atFace(p)); },
+         0.012F,
+         true},
         {readersHair, {0, 1.65F, -0.01F}, 0.12F, plain({0.28F, 0.18F, 0.12F}), 0.004F, true},
         {readersVeil, {0, 1.53F, -0.04F}, 0.33F, plain(linen), 0.004F, true},
     };
@@ -293,7 +297,8 @@ Body guard() {
         return std::min(right, left);
     };
     const auto pauldron = [](vec3 p) { // two lames
-        const vec3 q = turned(vec3(std::abs(p.x), p.y, p.z) - vec3(0.205F, 1.435F, -0.005F), 2, -28);
+        const vec3 q =
+            turned(vec3(std::abs(p.x), p.y, p.z) - vec3(0.205F, 1.435F, -0.005F), 2, -28);
         const float upper = std::max(ellipsoid(q, {0.098F, 0.072F, 0.100F}), -0.012F - q.y);
         const vec3 r = q - vec3(0.016F, -0.028F, 0);
         return std::min(upper, std::max(ellipsoid(r, {0.094F, 0.074F, 0.095F}), -0.030F - r.y));
@@ -311,12 +316,20 @@ Body guard() {
         {belt, {0, 1.07F, 0}, 0.24F, plain(leather), 0.003F},
         {collar, {0, 1.495F, -0.01F}, 0.24F, plain({0.45F, 0.38F, 0.32F}), 0.004F, true},
         {pauldron, {0, 1.43F, 0}, 0.34F, plain(steel), 0.002F, true},
-        {sword, {0, 0.57F, 0.30F}, 0.61F, [](vec3 p) { return p.y > 0.885F ? gold : steel; },
-         0.002F, true},
+        {sword,
+         {0, 0.57F, 0.30F},
+         0.61F,
+         [](vec3 p) { return p.y > 0.885F ? gold : steel; },
+         0.002F,
+         true},
         {hands, {0, 1.09F, 0.27F}, 0.22F, plain(skin), 0.003F, true},
         {neck, {0, 1.6F, 0}, 0.17F, plain(skin), 0.02F, true},
-        {[=](vec3 p) { return face((p - head) / 1.05F) * 1.05F; }, {0, 1.72F, 0.02F}, 0.16F,
-         [=](vec3 p) { return painted((p - head) / 1.05F); }, 0.012F, true},
+        {[=](vec3 p) { return face((p - head) / 1.05F) * 1.05F; },
+         {0, 1.72F, 0.02F},
+         0.16F,
+         [=](vec3 p) { return painted((p - head) / 1.05F); },
+         0.012F,
+         true},
         {guardsHair, {0, 1.67F, -0.01F}, 0.24F, plain(hair), 0.004F, true},
         {guardsCirclet, {0, 1.76F, -0.01F}, 0.14F, plain(gold), 0.002F, true},
     };
@@ -348,11 +361,12 @@ void addWall(Shape& ashlarWork, Shape& limestoneWork) {
 void addSurroundings(Scene& scene) {
     Shape ashlarWork, limestoneWork = plinth();
     addWall(ashlarWork, limestoneWork);
-    Shape floor = patch([](glm::vec2 uv) { return vec3(10 * uv.x - 5, 0, 6 - 8 * uv.y); }, 16, 16,
-                        {1, 1});
+    Shape floor =
+        patch([](glm::vec2 uv) { return vec3(10 * uv.x - 5, 0, 6 - 8 * uv.y); }, 16, 16, {1, 1});
     projectUv(floor);
     addMesh(scene, limestoneWork,
-            addMaterial(scene, {.name = "limestone", .roughness = 0.8F}, {512, 1.5F}, limestone()), 1.5F);
+            addMaterial(scene, {.name = "limestone", .roughness = 0.8F}, {512, 1.5F}, limestone()),
+            1.5F);
     addMesh(scene, ashlarWork, addMaterial(scene, {.name = "ashlar"}, {1024, 4}, ashlar()), 4);
     addMesh(scene, floor,
             addMaterial(scene, {.name = "flagstones"}, {1024, 4, true, true}, flagstones()), 4);

@@ -42,6 +42,12 @@ float limb(glm::vec3 p, glm::vec3 a, glm::vec3 b, float ra, float rb) {
     return glm::length(p - a - t * axis) - glm::mix(ra, rb, t);
 }
 
+float withLimbs(float solid, glm::vec3 p, std::initializer_list<Limb> limbs) {
+    for (const Limb& each : limbs)
+        solid = merge(solid, limb(p, each.from, each.to, each.fromRadius, each.toRadius), each.blend);
+    return solid;
+}
+
 glm::vec3 turned(glm::vec3 p, int axis, float degrees) {
     const float c = std::cos(glm::radians(degrees)), s = std::sin(glm::radians(degrees));
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -73,6 +79,7 @@ void unfold(Shape& shape) {
         shape.vertices[i].position = glm::vec3(sums[i]) / sums[i].w;
 }
 
+constexpr std::uint32_t none = ~0U;
 constexpr int block = 4; // cells; blocks that the surface cannot reach are not sampled
 
 class Net {
@@ -80,7 +87,7 @@ class Net {
     Net(const Field& field, const Bounds& box, float cell)
         : field_(field), low_(box.low), cell_(cell),
           cells_(glm::ivec3(glm::ceil((box.high - box.low) / (cell * block))) * block),
-          values_(count(cells_ + 1)), vertexOf_(count(cells_)) {}
+          values_(count(cells_ + 1)), vertexOf_(count(cells_), none) {}
 
     Shape surface() {
         findNear();
@@ -157,10 +164,11 @@ void Net::sample(glm::ivec3 low) {
     forEach(low, end(low), [&](glm::ivec3 p) { values_[index(p, cells_ + 1)] = field_(place(p)); });
 }
 
-// Onto the surface, as far as its cell allows.
+// Onto the surface, as far as its cell allows; `normal` is the field's slope in the cell until
+// then.
 void Net::settle(Vertex& vertex) const {
     const glm::vec3 cell = glm::floor((vertex.position - low_) / cell_);
-    const glm::vec3 slope = gradient(field_, vertex.position, 0.1F * cell_);
+    const glm::vec3 slope = vertex.normal;
     const glm::vec3 moved =
         vertex.position - slope * field_(vertex.position) / std::max(glm::dot(slope, slope), 0.25F);
     vertex.position =
@@ -170,7 +178,12 @@ void Net::settle(Vertex& vertex) const {
 
 void Net::addVertex(glm::ivec3 cell) {
     int inside = 0;
-    forEach(cell, cell + 2, [&](glm::ivec3 corner) { inside += value(corner) < 0 ? 1 : 0; });
+    glm::vec3 slope(0);
+    forEach(glm::ivec3(0), glm::ivec3(2), [&](glm::ivec3 corner) {
+        const float d = value(cell + corner);
+        inside += d < 0 ? 1 : 0;
+        slope += (glm::vec3(corner) - 0.5F) * d;
+    });
     if (inside == 0 || inside == 8)
         return;
     glm::vec3 sum(0);
@@ -188,7 +201,7 @@ void Net::addVertex(glm::ivec3 cell) {
             crossings += 1;
         }
     vertexOf_[index(cell, cells_)] = static_cast<std::uint32_t>(shape_.vertices.size());
-    shape_.vertices.push_back({low_ + cell_ * sum / crossings});
+    shape_.vertices.push_back({low_ + cell_ * sum / crossings, slope / (2 * cell_)});
 }
 
 // The four cells round each edge that leaves `corner` upwards along an axis.
@@ -208,7 +221,9 @@ void Net::addFaces(glm::ivec3 corner) {
                                           vertex(corner), vertex(corner - u)};
         if (!inside)
             std::swap(quad[1], quad[3]);
-        shape_.addQuad(quad);
+        // Where a field promises too much distance, its surface has a hole.
+        if (std::count(quad.begin(), quad.end(), none) == 0)
+            shape_.addQuad(quad);
     }
 }
 

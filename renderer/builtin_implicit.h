@@ -5,7 +5,7 @@
 #include <glm/glm.hpp>
 
 #include <functional>
-#include <vector>
+#include <initializer_list>
 
 namespace obscura::builtin {
 
@@ -29,6 +29,13 @@ float ellipsoid(glm::vec3 p, glm::vec3 radii);
 float roundedBox(glm::vec3 p, glm::vec3 half, float radius);
 // From a with radius ra to b with radius rb.
 float limb(glm::vec3 p, glm::vec3 a, glm::vec3 b, float ra, float rb);
+// The same as data: modelling is mostly a list of these.
+struct Limb {
+    glm::vec3 from, to;
+    float fromRadius, toRadius;
+    float blend; // fillet with what was there before
+};
+float withLimbs(float solid, glm::vec3 p, std::initializer_list<Limb> limbs);
 
 glm::vec3 turned(glm::vec3 p, int axis, float degrees); // about the origin
 

@@ -19,10 +19,10 @@ Noise::Noise(std::string_view purpose) {
 }
 
 float Noise::lattice(int x, int y, int z) const {
-    const auto next = [&](unsigned seed, int coordinate) {
-        return order_[(seed + static_cast<unsigned>(coordinate)) & 255U];
+    const auto next = [&](unsigned seed, int i) {
+        return (seed + static_cast<unsigned>(i)) & 255U;
     };
-    return values_[next(next(next(0, x), y), z)];
+    return values_[next(order_[next(order_[next(0, x)], y)], z)];
 }
 
 float Noise::cell(int x, int y) const { return 0.5F + 0.5F * lattice(x, y, 17); }
@@ -46,9 +46,14 @@ int floorOf(float x) {
 float Noise::value(glm::vec2 p, int period) const {
     const int x = floorOf(p.x), y = floorOf(p.y), mask = period - 1;
     const glm::vec2 t = fade(p - glm::vec2(x, y));
-    const int x0 = x & mask, x1 = (x + 1) & mask, y0 = y & mask, y1 = (y + 1) & mask;
-    return glm::mix(glm::mix(lattice(x0, y0, period), lattice(x1, y0, period), t.x),
-                    glm::mix(lattice(x0, y1, period), lattice(x1, y1, period), t.x), t.y);
+    // Each column of the lattice begins elsewhere in the table; each period, elsewhere again.
+    const auto column = [&](int i) {
+        return order_[static_cast<unsigned>((i & mask) + period) & 255U];
+    };
+    const int left = column(x), right = column(x + 1), low = y & mask, high = (y + 1) & mask;
+    const auto at = [&](int i) { return values_[static_cast<unsigned>(i) & 255U]; };
+    return glm::mix(glm::mix(at(left + low), at(right + low), t.x),
+                    glm::mix(at(left + high), at(right + high), t.x), t.y);
 }
 
 float Noise::value(glm::vec3 p) const {

@@ -38,7 +38,9 @@ float stone(glm::vec3 p) {
     const float angle = std::atan2(q.x, q.z);
     const float wave = std::abs(std::sin(5.5F * angle + 5 * q.y));
     const float fade = std::min(1.0F, glm::length(glm::vec2(q.x, q.z)) / 0.13F); // towards the pole
-    d += 0.022F * fade * (1 - std::sqrt(wave));
+    // Outside it fades: over a groove the ridges beside it are what is near.
+    const float near = glm::clamp(1 - d / 0.05F, 0.0F, 1.0F);
+    d += 0.034F * fade * near * (1 - std::sqrt(wave));
     const glm::vec3 through = turned(q - glm::vec3(0.01F, 0.06F, 0), 1, 8);
     d = cut(d, 0.14F * (glm::length(glm::vec2(through.x / 0.135F, through.y / 0.165F)) - 1), 0.05F);
     const glm::vec3 crossing = turned(q - glm::vec3(0, -0.19F, 0), 2, 20);

@@ -99,7 +99,7 @@ float skin(float along, float around) {
     const float belly = glm::smoothstep(2.05F, 2.25F, std::abs(around));
     const float seam =
         0.25F * std::exp(-70 * (std::abs(around) - 2.15F) * (std::abs(around) - 2.15F));
-    return 0.17F * (glm::mix(scales(along, around), plates(along), belly) - 0.7F) - seam * 0.5F;
+    return 0.26F * (glm::mix(scales(along, around), plates(along), belly) - 0.7F) - seam * 0.5F;
 }
 
 // Thorns along the back, in radii: swept towards the tail.
@@ -156,50 +156,46 @@ namespace {
 // In head space: x to the side (both sides alike), y up, z forwards; metres before scaling.
 float skull(glm::vec3 p) {
     float d = ellipsoid(p - glm::vec3(0, 0.005F, -0.01F), {0.058F, 0.050F, 0.075F});
-    d = merge(
-        d, limb(p * glm::vec3(0.8F, 1, 1), {0, 0.010F, 0.05F}, {0, 0.004F, 0.150F}, 0.038F, 0.023F),
-        0.03F);
-    d = merge(d, limb(p, {0.012F, 0.016F, 0.150F}, {0.018F, 0.014F, 0.158F}, 0.014F, 0.012F),
-              0.012F);
-    d = merge(d, limb(p, {0.018F, 0.040F, 0.075F}, {0.054F, 0.046F, 0.005F}, 0.010F, 0.016F),
-              0.012F);
-    d = merge(d, limb(p, {0.056F, -0.012F, 0.045F}, {0.058F, 0.0F, -0.03F}, 0.012F, 0.02F), 0.02F);
-    d = cut(d, glm::distance(p, {0.050F, 0.022F, 0.050F}) - 0.017F, 0.008F);
-    d = cut(d, glm::distance(p, {0.017F, 0.020F, 0.172F}) - 0.008F, 0.005F);
-    return std::min(d, glm::distance(p, {0.042F, 0.021F, 0.046F}) - 0.0145F); // the eye
+    d = withLimbs(d, p, {{{0, 0.010F, 0.05F}, {0, 0.004F, 0.145F}, 0.042F, 0.026F, 0.03F},
+                         {{0.014F, 0.018F, 0.148F}, {0.020F, 0.014F, 0.156F}, 0.014F, 0.012F, 0.012F},
+                         {{0.016F, 0.042F, 0.085F}, {0.056F, 0.050F, 0.000F}, 0.010F, 0.018F, 0.010F},
+                         {{0.056F, 0.055F, 0.015F}, {0.070F, 0.078F, -0.01F}, 0.010F, 0.002F, 0.006F},
+                         {{0.040F, 0.054F, 0.045F}, {0.046F, 0.074F, 0.030F}, 0.008F, 0.002F, 0.006F},
+                         {{0.052F, -0.012F, 0.055F}, {0.060F, 0.0F, -0.03F}, 0.012F, 0.02F, 0.015F}});
+    // Wrinkles across the snout.
+    d += 0.0035F * std::sin(240 * p.z + 300 * p.x * p.x) * glm::smoothstep(0.055F, 0.075F, p.z) *
+         glm::smoothstep(0.0F, 0.02F, p.y);
+    d = cut(d, limb(p, {0.052F, 0.024F, 0.062F}, {0.058F, 0.022F, 0.036F}, 0.015F, 0.017F), 0.008F);
+    d = cut(d, limb(p, {0.017F, 0.026F, 0.176F}, {0.030F, 0.026F, 0.158F}, 0.011F, 0.006F), 0.004F);
+    return std::min(d, glm::distance(p, {0.043F, 0.022F, 0.048F}) - 0.0145F); // the eye
 }
 
 float jaw(glm::vec3 p) {
-    float d =
-        limb(p * glm::vec3(0.8F, 1, 1), {0, -0.040F, 0.0F}, {0, -0.078F, 0.125F}, 0.030F, 0.015F);
-    d = cut(d, limb(p, {0, -0.030F, 0.03F}, {0, -0.060F, 0.13F}, 0.018F, 0.008F), 0.008F);
-    d = merge(d, limb(p, {0, -0.035F, 0.02F}, {0, -0.046F, 0.105F}, 0.012F, 0.006F),
-              0.006F); // tongue
-    d = merge(d, limb(p, {0, -0.095F, 0.115F}, {0, -0.130F, 0.095F}, 0.010F, 0.002F), 0.01F);
-    return merge(d, limb(p, {0.022F, -0.075F, 0.05F}, {0.028F, -0.112F, 0.02F}, 0.010F, 0.002F),
-                 0.01F);
+    float d = limb(p, {0, -0.040F, 0.0F}, {0, -0.100F, 0.110F}, 0.034F, 0.018F);
+    d = cut(d, limb(p, {0, -0.030F, 0.03F}, {0, -0.080F, 0.120F}, 0.020F, 0.010F), 0.006F);
+    return withLimbs(d, p, {{{0, -0.036F, 0.02F}, {0, -0.056F, 0.085F}, 0.012F, 0.008F, 0.006F},
+                            {{0, -0.056F, 0.085F}, {0, -0.050F, 0.125F}, 0.008F, 0.003F, 0.004F},
+                            {{0, -0.115F, 0.100F}, {0, -0.150F, 0.075F}, 0.011F, 0.002F, 0.010F},
+                            {{0.024F, -0.090F, 0.05F}, {0.032F, -0.128F, 0.015F}, 0.011F, 0.002F, 0.010F},
+                            {{0.034F, -0.065F, 0.01F}, {0.048F, -0.100F, -0.03F}, 0.011F, 0.002F, 0.010F}});
 }
 
 float teeth(glm::vec3 p) {
-    float d = limb(p, {0.016F, -0.010F, 0.148F}, {0.017F, -0.044F, 0.152F}, 0.008F, 0.002F);
-    d = std::min(d, limb(p, {0.026F, -0.014F, 0.115F}, {0.027F, -0.036F, 0.116F}, 0.007F, 0.002F));
-    d = std::min(d, limb(p, {0.032F, -0.016F, 0.085F}, {0.033F, -0.038F, 0.085F}, 0.007F, 0.002F));
-    d = std::min(d, limb(p, {0.013F, -0.070F, 0.125F}, {0.014F, -0.042F, 0.133F}, 0.007F, 0.002F));
-    return std::min(d,
-                    limb(p, {0.022F, -0.062F, 0.09F}, {0.024F, -0.040F, 0.096F}, 0.007F, 0.002F));
+    return withLimbs(1, p, {{{0.018F, -0.010F, 0.146F}, {0.019F, -0.048F, 0.150F}, 0.0085F, 0.002F, 0.001F},
+                            {{0.028F, -0.016F, 0.115F}, {0.029F, -0.040F, 0.116F}, 0.007F, 0.002F, 0.001F},
+                            {{0.034F, -0.020F, 0.085F}, {0.035F, -0.044F, 0.085F}, 0.007F, 0.002F, 0.001F},
+                            {{0.014F, -0.088F, 0.112F}, {0.016F, -0.058F, 0.124F}, 0.0075F, 0.002F, 0.001F},
+                            {{0.024F, -0.074F, 0.075F}, {0.027F, -0.052F, 0.086F}, 0.007F, 0.002F, 0.001F}});
 }
 
+// Ringed horns, and behind the cheek a frill: three spines and the skin between.
 float horns(glm::vec3 p) {
-    const glm::vec3 root(0.034F, 0.040F, -0.03F), bend(0.062F, 0.088F, -0.11F);
-    const float rings = 0.0018F * std::sin(420 * p.z);
-    float d = merge(limb(p, root, bend, 0.019F, 0.013F),
-                    limb(p, bend, {0.060F, 0.135F, -0.165F}, 0.013F, 0.003F), 0.004F) +
-              rings;
-    for (int i = 0; i < 3; ++i) { // a frill behind the cheek: three spines and the skin between
-        const float y = 0.035F * part(i, 1);
-        const glm::vec3 tip(0.125F, 0.035F - 1.4F * y, -0.095F + 0.3F * y);
-        d = merge(d, limb(p, {0.045F, 0.005F - 0.6F * y, -0.02F}, tip, 0.012F, 0.003F), 0.01F);
-    }
+    const float rings = 0.0025F * std::sin(420 * p.z);
+    float d = rings + withLimbs(1, p, {{{0.034F, 0.040F, -0.03F}, {0.062F, 0.088F, -0.11F}, 0.020F, 0.014F, 0.004F},
+                                       {{0.062F, 0.088F, -0.11F}, {0.060F, 0.135F, -0.165F}, 0.014F, 0.003F, 0.004F}});
+    d = withLimbs(d, p, {{{0.045F, 0.005F, -0.02F}, {0.125F, 0.035F, -0.095F}, 0.012F, 0.003F, 0.01F},
+                         {{0.045F, -0.016F, -0.02F}, {0.125F, -0.014F, -0.084F}, 0.012F, 0.003F, 0.01F},
+                         {{0.045F, -0.037F, -0.02F}, {0.125F, -0.063F, -0.074F}, 0.012F, 0.003F, 0.01F}});
     const glm::vec3 q = turned(p - glm::vec3(0.08F, -0.012F, -0.055F), 1, -45);
     return merge(d, ellipsoid(q, {0.045F, 0.040F, 0.0065F}), 0.006F);
 }

@@ -55,13 +55,17 @@ void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres
     mesh.firstIndex = static_cast<std::uint32_t>(scene.indices.size());
     mesh.indexCount = static_cast<std::uint32_t>(shape.indices.size());
     mesh.material = material;
-    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    for (Vertex vertex : shape.vertices) {
-        vertex.uv /= textureMetres;
-        scene.vertices.push_back(vertex);
+    // Vertices that only belonged to triangles of no area stay behind.
+    constexpr std::uint32_t none = ~0U;
+    std::vector<std::uint32_t> places(shape.vertices.size(), none);
+    for (const std::uint32_t index : shape.indices) {
+        if (places[index] == none) {
+            places[index] = static_cast<std::uint32_t>(scene.vertices.size());
+            scene.vertices.push_back(shape.vertices[index]);
+            scene.vertices.back().uv /= textureMetres;
+        }
+        scene.indices.push_back(places[index]);
     }
-    for (const std::uint32_t index : shape.indices)
-        scene.indices.push_back(first + index);
     scene.meshes.push_back(mesh);
     if (scene.materials[static_cast<std::size_t>(material)].normalTexture >= 0)
         deriveTangents(scene, mesh);
@@ -276,19 +280,25 @@ void mendNormals(Shape& shape) {
 }
 
 void splitFolds(Shape& shape) {
-    for (std::size_t i = 0; i < shape.indices.size(); i += 3) {
+    const std::vector<std::uint32_t> before = std::move(shape.indices);
+    shape.indices.clear();
+    for (std::size_t i = 0; i < before.size(); i += 3) {
         std::array<Vertex, 3> corners;
         for (std::size_t k = 0; k < 3; ++k)
-            corners[k] = shape.vertices[shape.indices[i + k]];
+            corners[k] = shape.vertices[before[i + k]];
         const glm::vec3 face = glm::cross(corners[1].position - corners[0].position,
                                           corners[2].position - corners[0].position);
-        if (glm::dot(face, corners[0].normal + corners[1].normal + corners[2].normal) > 0)
-            continue;
-        for (std::size_t k = 0; k < 3; ++k) {
-            corners[k].normal = glm::normalize(face);
-            shape.indices[i + k] = static_cast<std::uint32_t>(shape.vertices.size());
-            shape.vertices.push_back(corners[k]);
+        auto first = before[i], second = before[i + 1], third = before[i + 2];
+        if (glm::dot(face, corners[0].normal + corners[1].normal + corners[2].normal) <= 0 &&
+            glm::length(face) > 0) {
+            first = static_cast<std::uint32_t>(shape.vertices.size());
+            second = first + 1;
+            third = first + 2;
+            for (Vertex& corner : corners)
+                corner.normal = glm::normalize(face);
+            shape.vertices.insert(shape.vertices.end(), corners.begin(), corners.end());
         }
+        shape.addTriangle(first, second, third);
     }
 }
 

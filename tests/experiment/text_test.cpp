@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 namespace obscura {
 namespace {
@@ -89,6 +90,24 @@ TEST(Text, LongTextIsSetSmallerAndThenRefused) {
                 testing::ThrowsMessage<Error>(
                     testing::AllOf(testing::HasSubstr("too long for a screen of 1280x720 pixels"),
                                    testing::HasSubstr("Look at each image."))));
+}
+
+// On the smallest screen that can show its images, the warning included.
+TEST(Text, TheShippedProtocolsFitTheirScreens) {
+    int found = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(OBSCURA_SOURCE "/protocols")) {
+        if (entry.path().extension() != ".toml")
+            continue;
+        ++found;
+        const Protocol protocol = readProtocol(entry.path());
+        for (Page page : {instructionsPage(protocol.texts), startPage(protocol.texts, 7, 7),
+                          questionPage(protocol.texts), thanksPage(protocol.texts)}) {
+            page.warning = "Untimed display: not suitable for data collection";
+            EXPECT_NO_THROW(drawPage(page, protocol.width, protocol.height, protocol.trial.grey))
+                << entry.path();
+        }
+    }
+    EXPECT_GT(found, 0);
 }
 
 TEST(Text, StartPageCountsPairs) { EXPECT_EQ(startPage(texts, 3, 7).heading, "3 / 7"); }
