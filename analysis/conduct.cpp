@@ -138,7 +138,8 @@ std::string people(const Conduct& c) {
 std::string trials(const Conduct& c) {
     std::string text = fmt::format("{} main trials from {} files", c.trials, c.files);
     if (c.interrupted > 0)
-        text += fmt::format(", {} of them interrupted (the window lost the screen)", c.interrupted);
+        text +=
+            fmt::format(", {} of them interrupted (the window lost the keyboard)", c.interrupted);
     const LeftOut& out = c.leftOut;
     const std::pair<int, const char*> parts[] = {{out.practice, "practice"},
                                                  {out.catches, "catch"},

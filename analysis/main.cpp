@@ -66,7 +66,7 @@ void declareRules(CLI::App& app, AnswerRules& rules) {
                  "Where a trial has several rows, count the first and leave out the others");
     app.add_flag_callback(
         "--exclude-interrupted", [&rules] { rules.interrupted = false; },
-        "Leave out trials during which the window lost the screen; else they count");
+        "Leave out trials during which the window lost the keyboard; else they count");
 }
 
 Findings published(const fs::path& counts) {

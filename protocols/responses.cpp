@@ -125,8 +125,10 @@ const Column columns[] = {
     {"chose_b", "1 when member b was chosen", &R::choseB,
      "1 when chosen_position and first_is say so, else 0",
      [](const R& r) { return r.choseB == ((r.chosenPosition == 2) == (r.firstIs == "a")); }},
-    {"interrupted", "1 when the window lost the screen during the trial", &R::interrupted, flag,
-     any},
+    {"interrupted",
+     "1 when the window lost the keyboard, or Escape was pressed, while an image or the mask was "
+     "on view",
+     &R::interrupted, flag, any},
     {"early_presses_in_mask", "Keys pressed during the mask, and discarded", &R::earlyPressesInMask,
      whole, notNegative<&R::earlyPressesInMask>},
     {"app_version", "Version of Obscura", &R::appVersion, some, filled<&R::appVersion>},

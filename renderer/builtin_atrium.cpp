@@ -170,8 +170,9 @@ void addBalustrade(Works& works) {
     const Shape foot = box({bay / 2 - 0.3F, 0.1F, 0.24F}, 0.012F);
     const Shape hand = box({bay / 2 - 0.3F, 0.12F, 0.26F}, 0.03F);
     for (const glm::mat4& place : bays(court, bay / 2)) {
-        for (int i = 0; i < 5; ++i)
-            works.limestone.add(post, place * at({0.23F * part(i - 2, 1), galleryFloor + 0.1F, 0}));
+        for (int i = 0; i < 4; ++i)
+            works.limestone.add(post,
+                                place * at({0.27F * (part(i, 1) - 1.5F), galleryFloor + 0.1F, 0}));
         works.limestone.add(foot, place * at({0, galleryFloor + 0.05F, 0}));
         works.limestone.add(hand, place * at({0, galleryFloor + rail - 0.06F, 0}));
     }

@@ -17,11 +17,11 @@ float shaftRadius(float radius, float t) { return radius * (1 - (1 - taper) * st
 // Two tori with a hollow between them: the Attic base, 0.9 radii high.
 Outline atticBase(float r) {
     Outline outline;
-    addArc(outline, {1.17F * r, 0.17F * r}, 0.17F * r, -90, 90, 8);
+    addArc(outline, {1.17F * r, 0.17F * r}, 0.17F * r, -90, 90, 6);
     outline.insert(outline.end(), {{1.16F * r, 0.34F * r}, {1.16F * r, 0.38F * r}});
-    addArc(outline, {1.16F * r, 0.47F * r}, 0.09F * r, -90, -270, 8);
+    addArc(outline, {1.16F * r, 0.47F * r}, 0.09F * r, -90, -270, 5);
     outline.insert(outline.end(), {{1.16F * r, 0.60F * r}});
-    addArc(outline, {1.10F * r, 0.68F * r}, 0.08F * r, -90, 90, 6);
+    addArc(outline, {1.10F * r, 0.68F * r}, 0.08F * r, -90, 90, 4);
     outline.insert(outline.end(), {{1.07F * r, 0.76F * r}, {1.07F * r, 0.80F * r}});
     addArc(outline, {1.10F * r, 0.90F * r}, 0.10F * r, -110, -180, 4);
     return outline;
@@ -128,7 +128,7 @@ Shape grandCapital(float r, float top) {
 Shape grandColumn(float radius, float height) {
     const float foot = 0.42F * radius, base = foot + 0.9F * radius, top = 1.75F * radius;
     Shape shape = plinth(2.72F * radius, foot);
-    shape.add(lathe(atticBase(radius), 28), at({0, foot, 0}));
+    shape.add(lathe(atticBase(radius), 24), at({0, foot, 0}));
     shape.add(flutedShaft(radius, height - top - base, 20), at({0, base, 0}));
     shape.add(grandCapital(radius, top), at({0, height - top, 0}));
     return shape;
@@ -149,7 +149,7 @@ Shape plainColumn(float radius, float height) {
     addArc(outline, {thin + 0.1F * radius, height - slab - 0.05F * radius}, 0.42F * radius, -60, 0,
            5);
     outline.push_back({thin + 0.52F * radius, height - slab});
-    shape.add(lathe(outline, 20));
+    shape.add(lathe(outline, 16));
     shape.add(abacus(2.9F * radius, slab), at({0, height - slab, 0}));
     return shape;
 }

@@ -43,7 +43,7 @@ Shape curtains(float width, float height) {
         [=](glm::vec2 uv) {
             return curtainPoint(half, height, {1 - uv.x, uv.y});
         },
-        48, 48, {1.5F * half, 1});
+        44, 40, {1.5F * half, 1});
     Shape shape;
     shape.add(panel, at({-width / 2, 0, 0}));
     glm::mat4 mirror = at({width / 2, 0, 0});
@@ -66,7 +66,7 @@ Shape banner(float width, float back, float front, const Ledge& ledge) {
                          round * (std::cos(angle) - 1) - hang,
                          round * std::sin(angle) + out + fold);
     };
-    return patch(surface, 40, 40, {width, 1});
+    return patch(surface, 28, 36, {width, 1});
 }
 
 namespace {
@@ -109,7 +109,7 @@ Shape amphora(float height) {
                                    {0.08F, 0.8F},
                                    {0, 0.78F}});
     scale(outline, height);
-    Shape shape = lathe(outline, 28);
+    Shape shape = lathe(outline, 24);
     for (const float turn : {0.0F, 180.0F})
         shape.add(handle(glm::vec2(0.10F, 0.90F) * height, glm::vec2(0.19F, 0.62F) * height,
                          0.11F * height, 0.018F * height),
@@ -132,7 +132,7 @@ Shape urn(float height) {
                                    {0.31F, 0.82F},
                                    {0, 0.84F}});
     scale(outline, height);
-    return lathe(outline, 28);
+    return lathe(outline, 24);
 }
 
 Shape palm(int fronds, float length) {

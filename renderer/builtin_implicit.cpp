@@ -44,7 +44,8 @@ float limb(glm::vec3 p, glm::vec3 a, glm::vec3 b, float ra, float rb) {
 
 float withLimbs(float solid, glm::vec3 p, std::initializer_list<Limb> limbs) {
     for (const Limb& each : limbs)
-        solid = merge(solid, limb(p, each.from, each.to, each.fromRadius, each.toRadius), each.blend);
+        solid =
+            merge(solid, limb(p, each.from, each.to, each.fromRadius, each.toRadius), each.blend);
     return solid;
 }
 

@@ -87,7 +87,7 @@ TEST(Conduct, CountsWhatWentWrongOnTheDisplay) {
               "59.95–60.00 Hz; timestamps from \"finish\" in 1 trials; timestamps from \"none\" in "
               "1 trials (no vertical blank: not fit for claims about timing)");
     EXPECT_EQ(fact(conduct, "Trials"), "2 main trials from 1 files, 1 of them interrupted (the "
-                                       "window lost the screen); nothing left out");
+                                       "window lost the keyboard); nothing left out");
 }
 
 TEST(Conduct, NoticesWhenTheImagesChanged) {

@@ -92,7 +92,7 @@ TEST_F(SimulationTest, RowsAreWholeAndMarked) {
 // Share of b per condition within 4.5 standard errors of the stated model; with seven conditions a
 // sound program fails once in 20 000 seeds, and the seed is fixed.
 TEST_F(SimulationTest, ChoicesFollowTheModel) {
-    constexpr int participants = 280;
+    constexpr int participants = 112;
     constexpr double bias = 0.1;
     const auto rows =
         simulate(study({.positionBias = bias}), folder.path() / "data", participants, 7);
@@ -117,7 +117,7 @@ TEST_F(SimulationTest, ChoicesFollowTheModel) {
 }
 
 TEST_F(SimulationTest, TimesFollowTheExGaussian) {
-    const auto rows = simulate(study(), folder.path() / "data", 140, 3);
+    const auto rows = simulate(study(), folder.path() / "data", 42, 3);
     double sum = 0;
     for (const Response& row : rows)
         sum += row.decisionRtMs / 1000;

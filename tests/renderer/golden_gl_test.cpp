@@ -2,11 +2,10 @@
 // the image as shown, and its visibility. Judged by four numbers of golden/tolerances.toml: a
 // difference that may be seen in a few values, one that no value may reach, and a bound on the
 // signed mean, since faults of occlusion are shifts. scripts/bless renews them.
-#include "renderer/gl/context.h"
-#include "renderer/render.h"
-
 #include "protocols/files.h"
 #include "protocols/toml_table.h"
+#include "renderer/gl/context.h"
+#include "renderer/render.h"
 
 #include <gtest/gtest.h>
 
@@ -27,6 +26,8 @@ struct Case {
     std::size_t condition;
     int member;
 };
+
+void PrintTo(const Case& test, std::ostream* out) { *out << test.name; }
 
 const Protocol& study() {
     static const Protocol protocol = readProtocol(goldens / "golden.toml");
