@@ -62,7 +62,7 @@ Shape voussoirs(const ArchedWall& wall, int count, float width) {
     for (int i = 0; i < count; ++i) {
         const bool key = 2 * i + 1 == count;
         const float inner = wall.radius - (key ? 0.04F : 0.02F);
-        const float outer = wall.radius + width * (key ? 1.25F : 1.0F);
+        const float outer = wall.radius + width * (key ? 1.12F : 1.0F);
         const float middle = (inner + outer) / 2;
         const float joint = 0.008F, angle = glm::pi<float>() / part(count, 1);
         Shape stone =

@@ -81,25 +81,34 @@ struct Patch {
     glm::vec2 flat(glm::vec3 p) const { return density * flattened(p, facing); }
 };
 
+// For each triangle, which one stands for its patch: those that share a label and hang together.
+std::vector<std::size_t> patchOfEach(const Shape& shape, const std::vector<int>& labels) {
+    Groups groups(labels.size());
+    std::unordered_map<std::uint64_t, std::size_t> seen; // a triangle at (vertex, label)
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        for (const std::uint32_t vertex : triangleAt(shape, i)) {
+            const auto key = (std::uint64_t{vertex} << 32U) + static_cast<unsigned>(labels[i]);
+            groups.join(seen.try_emplace(key, i).first->second, i);
+        }
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        result.push_back(groups.find(i));
+    return result;
+}
+
+// The tallest first.
 std::vector<Patch> patchesOf(const Shape& shape, const std::vector<int>& part,
                              const std::vector<float>& density) {
     const std::vector<glm::vec3> normals = calmNormals(shape);
-    const std::size_t count = shape.indices.size() / 3;
-    Groups groups(count);
-    std::vector<int> labels(count);
-    std::unordered_map<std::uint64_t, std::size_t> seen; // a triangle at (vertex, label)
-    for (std::size_t i = 0; i < count; ++i) {
+    std::vector<int> labels;
+    for (std::size_t i = 0; i < shape.indices.size() / 3; ++i) {
         const Triangle t = triangleAt(shape, i);
-        labels[i] = facing(normals[t[0]] + normals[t[1]] + normals[t[2]]) + 6 * part[t[0]];
-        for (const std::uint32_t vertex : t)
-            groups.join(
-                seen.try_emplace(vertex * std::uint64_t{128} + static_cast<unsigned>(labels[i]), i)
-                    .first->second,
-                i);
+        labels.push_back(facing(normals[t[0]] + normals[t[1]] + normals[t[2]]) + 6 * part[t[0]]);
     }
+    const std::vector<std::size_t> roots = patchOfEach(shape, labels);
     std::map<std::size_t, Patch> patches;
-    for (std::size_t i = 0; i < count; ++i) {
-        Patch& patch = patches[groups.find(i)];
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        Patch& patch = patches[roots[i]];
         patch.facing = labels[i] % 6;
         patch.density = density[static_cast<std::size_t>(labels[i] / 6)];
         patch.triangles.push_back(i);

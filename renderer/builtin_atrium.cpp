@@ -124,10 +124,11 @@ Shape floorBetween(glm::vec2 low, glm::vec2 high, float y) {
 
 // Four strips round the court, from its half size `inner` to the outer walls.
 Shape ringFloor(glm::vec2 inner, float y) {
-    Shape shape = floorBetween({-outer.x, inner.y}, outer, y);
-    shape.add(floorBetween(-outer, {outer.x, -inner.y}, y));
-    shape.add(floorBetween({-outer.x, -inner.y}, {-inner.x, inner.y}, y));
-    shape.add(floorBetween({inner.x, -inner.y}, {outer.x, inner.y}, y));
+    const glm::vec2 end = outer + lowerNiche.thickness; // the niches have a floor too
+    Shape shape = floorBetween({-end.x, inner.y}, end, y);
+    shape.add(floorBetween(-end, {end.x, -inner.y}, y));
+    shape.add(floorBetween({-end.x, -inner.y}, {-inner.x, inner.y}, y));
+    shape.add(floorBetween({inner.x, -inner.y}, {end.x, inner.y}, y));
     return shape;
 }
 
@@ -139,7 +140,7 @@ void addFloors(Works& works) {
         steps.insert(steps.end(), {{x, y}, {x, y + 0.11F}, {x + 0.015F, y + 0.12F}});
         addArc(steps, {x + 0.015F, y + 0.135F}, 0.015F, -60, 90, 4); // the nosing
     }
-    steps.push_back({-1, 0});
+    steps.push_back({step - 1, 0}); // as far as the passage's floor
     for (glm::vec2& point : steps)
         point.x -= step;
     works.limestone.add(innerMoulding(steps, edge));

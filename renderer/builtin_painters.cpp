@@ -157,7 +157,7 @@ Painter flagstones() {
         const float face = ramp(0.004F, 0.022F, stone.inside);
         const glm::vec3 warm =
             glm::mix(glm::vec3(0.62F, 0.56F, 0.48F), glm::vec3(0.76F, 0.71F, 0.62F), stone.tone);
-        const glm::vec3 cool(0.58F, 0.58F, 0.55F);
+        const glm::vec3 cool(0.60F, 0.58F, 0.53F);
         glm::vec3 colour = glm::mix(
             warm, cool, ramp(0.7F, 0.8F, noise.cell(static_cast<int>(stone.tone * 255), 5)));
         colour *= 1 + 0.28F * cloud + 0.10F * grain;
@@ -182,12 +182,12 @@ Painter marbleFloor() {
                      std::abs(lozenge - 0.84F)) *
             0.75F;
         const float bent = noise.clouds(uv * 8.0F + 2.0F, 8, 3);
-        const float vein = ramp(0.07F, 0, std::abs(noise.clouds(uv * 8.0F + 1.5F * bent, 8, 4)));
+        const float vein = ramp(0.10F, 0, std::abs(noise.clouds(uv * 8.0F + 0.8F * bent, 8, 4)));
         const float cloud = noise.clouds(uv * 16.0F, 16, 3);
         const glm::vec3 pale =
             glm::mix(glm::vec3(0.86F, 0.82F, 0.74F), glm::vec3(0.66F, 0.60F, 0.52F), 0.7F * vein);
         const glm::vec3 green =
-            glm::mix(glm::vec3(0.20F, 0.27F, 0.24F), glm::vec3(0.47F, 0.53F, 0.47F), 0.6F * vein);
+            glm::mix(glm::vec3(0.20F, 0.27F, 0.24F), glm::vec3(0.47F, 0.53F, 0.47F), 0.35F * vein);
         const glm::vec3 red(0.48F, 0.25F, 0.19F);
         const float face = ramp(0.001F, 0.005F, joint);
         Texel texel;

@@ -49,7 +49,7 @@ float veil(vec3 p) { // a hood that falls on the shoulders
 
 float hair(vec3 p) {
     const vec3 q = p - vec3(0, 1.635F, 0);
-    const float d = ellipsoid(q - vec3(0, 0.018F, -0.010F), {0.088F, 0.107F, 0.105F}) +
+    const float d = ellipsoid(q - vec3(0, 0.018F, -0.005F), {0.088F, 0.107F, 0.105F}) +
                     0.003F * std::sin(130 * q.x + 30 * q.y * q.x);
     return cut(d, ellipsoid(q - vec3(0, -0.045F, 0.075F), {0.060F, 0.098F, 0.125F}), 0.01F);
 }

@@ -67,7 +67,7 @@ Scene sculpture() {
     };
     Shape shape = surfaceOf(field, {{-0.43F, -0.02F, -0.43F}, {0.43F, 1.25F, 0.43F}}, cell);
     Scene scene;
-    scene.materials.push_back({.name = "clay", .baseColour = glm::vec4(0.62F, 0.60F, 0.57F, 1)});
+    scene.materials.push_back({.name = "clay", .baseColour = glm::vec4(0.55F, 0.53F, 0.50F, 1)});
     addMesh(scene, shape, 0);
     return scene;
 }

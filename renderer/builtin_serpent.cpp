@@ -83,14 +83,14 @@ namespace {
 
 // Diamonds, each a dome that rises towards the tail, so that it seems to overlap the next.
 float scales(float along, float around) {
-    const float a = along / 0.62F, b = around * 12 / glm::two_pi<float>();
+    const float a = along / 0.76F, b = around * 10 / glm::two_pi<float>();
     const float p = glm::fract(a + b / 2), q = glm::fract(a - b / 2);
     const float dome = std::min(std::min(p, 1 - p), std::min(q, 1 - q)) * 2;
     return std::sqrt(dome) * (0.55F + 0.45F * (2 - p - q) / 2);
 }
 
 float plates(float along) {
-    const float t = glm::fract(along / 0.45F);
+    const float t = glm::fract(along / 0.58F);
     return 0.85F * std::sqrt(std::max(0.0F, 1 - std::pow(std::abs(1.7F * t - 0.7F), 3.0F)));
 }
 

@@ -24,6 +24,8 @@ struct Shape {
     void addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
     // Split where its two triangles agree best with the normals at its corners.
     void addQuad(const std::array<std::uint32_t, 4>& corners);
+    // The cells of a grid whose vertices were added last, row by row.
+    void addCells(int across, int up);
 };
 
 void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres = 1);

@@ -55,10 +55,11 @@ step() {
     say "$label: done in $(spell $((SECONDS - start)))"
 }
 
+# Each package is fetched, unpacked and set up.
 count_apt() {
-    local total
-    total=$(grep -oE '[0-9]+ newly installed' "$log" | grep -oE '^[0-9]+')
-    echo "$(grep -cE '^(Unpacking|Setting up)' "$log") $((2 * ${total:-0}))"
+    awk '/newly installed/ { total = 3 * $3; seen = 1 }
+         seen && /^(Get:|Unpacking|Setting up)/ { done++ }
+         END { print done + 0, total + 0 }' "$log"
 }
 
 count_ninja() { grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -n 1 | tr -d '[]' | tr '/' ' '; }

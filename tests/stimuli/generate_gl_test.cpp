@@ -1,5 +1,6 @@
 #include "protocols/files.h"
 #include "renderer/gl/context.h"
+#include "renderer/light.h"
 #include "stimuli/generate.h"
 #include "stimuli/plan.h"
 #include "tests/renderer/small_gltf.h"
@@ -7,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -149,6 +151,28 @@ TEST_F(Generate, RendersAgainWhenTheSceneChanges) {
     bytes[14] = '\x40'; // another corner
     writeFile(root_ / "scenes" / "t.bin", bytes);
     EXPECT_EQ(run().rendered, 4);
+}
+
+// The built-in sky, stored as an image: a file must light the scene as the sky does.
+TEST_F(Generate, AnEnvironmentImageLightsLikeTheSkyItShows) {
+    const std::array<std::string, 3> names{"R", "G", "B"};
+    writeExr(root_ / "sky.exr", skyPanorama(Sky{}), names, true);
+    std::string text = protocolText();
+    text.replace(text.find("sky = {}"), 8, "environment = \"sky.exr\"");
+    const GenerateResult sky = run(protocolText(), "sky"), image = run(text, "image");
+    const auto lit = [&](const GenerateResult& result) {
+        const fs::path path = result.manifest.folder / result.manifest.pairs[1].b.image.path;
+        return readImage8(path).pixels;
+    };
+    EXPECT_EQ(lit(sky), lit(image));
+
+    Image dusk = skyPanorama(Sky{});
+    for (float& value : dusk.pixels)
+        value *= 0.25f;
+    writeExr(root_ / "sky.exr", dusk, names, true);
+    const GenerateResult darker = run(text, "image");
+    EXPECT_EQ(darker.rendered, 2); // the level that it lights
+    EXPECT_NE(lit(darker), lit(sky));
 }
 
 TEST_F(Generate, LayersAreAddedOnRequest) {
