@@ -469,12 +469,15 @@ std::string sceneSha256(const fs::path& path) {
 }
 
 void deriveTangents(Scene& scene, const Mesh& mesh) {
-    const auto triangle = [&](std::uint32_t i) {
-        return std::span(scene.indices).subspan(mesh.firstIndex + i, 3);
+    const auto indices = std::span(scene.indices).subspan(mesh.firstIndex, mesh.indexCount);
+    const auto [least, greatest] = std::minmax_element(indices.begin(), indices.end());
+    struct Sum {
+        glm::vec3 alongU{0}, alongV{0};
+        bool used = false;
     };
-    std::map<std::uint32_t, std::pair<glm::vec3, glm::vec3>> sums; // along u, along v
+    std::vector<Sum> sums(mesh.indexCount == 0 ? 0 : *greatest - *least + 1);
     for (std::uint32_t i = 0; i < mesh.indexCount; i += 3) {
-        const auto t = triangle(i);
+        const auto t = indices.subspan(i, 3);
         const Vertex &a = scene.vertices[t[0]], &b = scene.vertices[t[1]],
                      &c = scene.vertices[t[2]];
         const glm::vec3 e = b.position - a.position, f = c.position - a.position;
@@ -483,18 +486,23 @@ void deriveTangents(Scene& scene, const Mesh& mesh) {
         if (area == 0)
             continue;
         for (const std::uint32_t index : t) {
-            sums[index].first += (e * r.y - f * s.y) / area;
-            sums[index].second += (f * s.x - e * r.x) / area;
+            Sum& sum = sums[index - *least];
+            sum.alongU += (e * r.y - f * s.y) / area;
+            sum.alongV += (f * s.x - e * r.x) / area;
+            sum.used = true;
         }
     }
-    for (auto& [index, sum] : sums) {
-        Vertex& vertex = scene.vertices[index];
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const Sum& sum = sums[i];
+        if (!sum.used)
+            continue;
+        Vertex& vertex = scene.vertices[*least + i];
         const glm::vec3 n = vertex.normal;
-        glm::vec3 tangent = sum.first - n * glm::dot(n, sum.first);
+        glm::vec3 tangent = sum.alongU - n * glm::dot(n, sum.alongU);
         if (glm::length(tangent) < 1e-12f) // no direction of its own: any across the normal
             tangent = glm::cross(n, std::abs(n.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0));
         // A normal map's green points up the image, and glTF's v runs down it.
-        const float sign = glm::dot(glm::cross(n, tangent), sum.second) > 0 ? -1.0f : 1.0f;
+        const float sign = glm::dot(glm::cross(n, tangent), sum.alongV) > 0 ? -1.0f : 1.0f;
         vertex.tangent = glm::vec4(glm::normalize(tangent), sign);
     }
 }
