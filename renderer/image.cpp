@@ -90,6 +90,14 @@ float linearFromSrgb(float code) {
     return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
+Image8 quantised(const Image& image) {
+    Image8 result{image.width, image.height, image.channels, {}};
+    for (const float value : image.pixels)
+        result.pixels.push_back(
+            static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f));
+    return result;
+}
+
 Image8 readImage8(const std::filesystem::path& path, int channels) {
     return read<Image8>(OIIO::ImageInput::open(path.string()).get(), path.string(), channels);
 }

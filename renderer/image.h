@@ -36,6 +36,9 @@ struct Image8 {
 float srgbFromLinear(float linear);
 float linearFromSrgb(float code);
 
+// Values in [0, 1] as code values 0 ... 255, rounded, with no transfer function.
+Image8 quantised(const Image& image);
+
 // Any file OpenImageIO reads, as stored: 8-bit files to their code values (a deeper file is
 // rounded), float files to their values. `channels` 0 keeps the file's; otherwise missing colour
 // channels repeat grey, missing alpha is opaque. An Error names the path and the reader's reason.

@@ -166,10 +166,7 @@ int render(const Options& options) {
     writePng(options.out, rendering.image);
     fs::path ao = options.out;
     ao.replace_filename(options.out.stem().string() + "-ao.png");
-    Image8 grey{rendering.visibility.width, rendering.visibility.height, 1, {}};
-    for (const float v : rendering.visibility.pixels)
-        grey.pixels.push_back(static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f));
-    writePng(ao, grey);
+    writePng(ao, quantised(rendering.visibility));
     if (options.layers)
         writeLayers(options.out, rendering);
     const StageTimes& t = renderer.times();

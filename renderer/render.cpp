@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -55,12 +56,10 @@ Image flipped(const std::vector<float>& values, int width, int height, int have,
     return image;
 }
 
-Image8 displayed(const Image& linear) {
-    Image8 image{linear.width, linear.height, linear.channels, {}};
-    image.pixels.reserve(linear.pixels.size());
-    for (const float value : linear.pixels)
-        image.pixels.push_back(static_cast<std::uint8_t>(srgbFromLinear(value) * 255 + 0.5f));
-    return image;
+Image8 displayed(Image linear) {
+    std::transform(linear.pixels.begin(), linear.pixels.end(), linear.pixels.begin(),
+                   srgbFromLinear);
+    return quantised(linear);
 }
 
 void hashTargets(Sha256& hash, const gl::Target& target, int count) {

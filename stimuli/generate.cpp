@@ -45,6 +45,18 @@ bool intact(const fs::path& folder, const FileRecord& file) {
     return fs::exists(folder / file.path) && sha256File(folder / file.path) == file.sha256;
 }
 
+// What a killed run was writing when it died: hidden names of unfinishedPath(), never published.
+void removeUnfinishedFiles(const fs::path& folder) {
+    if (!fs::exists(folder))
+        return;
+    std::vector<fs::path> hidden;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file() && entry.path().filename().string().starts_with('.'))
+            hidden.push_back(entry.path());
+    for (const fs::path& path : hidden)
+        fs::remove(path);
+}
+
 // Whether an earlier record proves that the image need not be rendered.
 bool proves(const ImageRecord& earlier, const Recipe& recipe, const fs::path& folder, bool layers) {
     if (earlier.recipe.sha256() != recipe.sha256() || !intact(folder, earlier.image) ||
@@ -52,13 +64,6 @@ bool proves(const ImageRecord& earlier, const Recipe& recipe, const fs::path& fo
         return false;
     return std::all_of(earlier.layers.begin(), earlier.layers.end(),
                        [&](const auto& layer) { return intact(folder, layer.second); });
-}
-
-Image8 greyOf(const Image& visibility) {
-    Image8 grey{visibility.width, visibility.height, 1, {}};
-    for (const float v : visibility.pixels)
-        grey.pixels.push_back(static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255 + 0.5f));
-    return grey;
 }
 
 class ImageWriter {
@@ -92,7 +97,7 @@ ImageRecord write(const Rendering& rendering, const std::string& file, const fs:
     record.inputsSha256 = rendering.inputsSha256;
     record.meanOcclusion = rendering.meanOcclusion;
     record.image = writer.png(file, rendering.image);
-    record.layers["ao"] = writer.png(stem + "_ao.png", greyOf(rendering.visibility));
+    record.layers["ao"] = writer.png(stem + "_ao.png", quantised(rendering.visibility));
     if (layers) {
         record.layers["visibility"] = writer.exr(stem + "_visibility.exr", rendering.visibility);
         for (const auto& [kind, image] : rendering.layers)
@@ -149,6 +154,7 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     for (const PlannedImage& image : images)
         recipes.push_back(makeRecipe(protocol, protocol.conditions[image.condition], image.member,
                                      scenes, driver));
+    removeUnfinishedFiles(folder);
     const auto earlier = earlierRecords(folder);
     GenerateResult result;
     result.manifest = emptyManifest(protocol);

@@ -195,7 +195,9 @@ TEST_F(Generate, AnInterruptedRunLeavesNothingHalfDone) {
     EXPECT_FALSE(fs::exists(root_ / "out" / "manifest.json"));
     for (const auto& [name, content] : contentsOf(root_ / "out"))
         EXPECT_NE(name.front(), '.') << "an unfinished file was left: " << name;
+    writeFile(root_ / "out" / ".first_a_crytek.123.png", "what a killed run leaves");
     const GenerateResult rest = run();
+    EXPECT_FALSE(fs::exists(root_ / "out" / ".first_a_crytek.123.png"));
     EXPECT_EQ(rest.kept, 2); // the finished pair
     EXPECT_EQ(rest.rendered, 2);
 }
