@@ -124,8 +124,12 @@ Image8 Desktop::look() const {
 bool Desktop::awaits(const Image8& expected, double seconds) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
     do {
-        if (look().pixels == expected.pixels)
+        if (look().pixels == expected.pixels) {
+            // Nobody reacts sooner, and the presenter rightly ignores a key pressed before it
+            // knows that the picture is on the screen.
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
             return true;
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     } while (std::chrono::steady_clock::now() < end);
     return false;
