@@ -136,6 +136,15 @@ PairRecord emptyPair(const Protocol& protocol, const Condition& condition) {
     return pair;
 }
 
+// Each once, with the scene it is about.
+void addWarnings(std::vector<std::string>& all, const std::string& scene,
+                 const std::vector<std::string>& found) {
+    for (const std::string& warning : found)
+        if (const std::string full = fmt::format("scene \"{}\": {}", scene, warning);
+            std::find(all.begin(), all.end(), full) == all.end())
+            all.push_back(full);
+}
+
 // The pairs of which both members are there.
 Manifest finishedPart(Manifest manifest) {
     std::erase_if(manifest.pairs, [](const PairRecord& pair) {
@@ -175,6 +184,7 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
             ++result.kept;
         } else {
             const Rendering rendering = renderer.render(recipes[i], layers);
+            addWarnings(result.warnings, condition.view, renderer.sceneWarnings());
             const double start = seconds();
             record = write(rendering, image.file, folder, layers);
             result.writing += seconds() - start;

@@ -6,14 +6,16 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
 struct GenerateResult {
     Manifest manifest;
-    int rendered = 0, kept = 0; // images
-    StageTimes times;           // of those rendered
-    double writing = 0;         // seconds: encoding and flushing files, and the contact sheet
+    int rendered = 0, kept = 0;        // images
+    StageTimes times;                  // of those rendered
+    std::vector<std::string> warnings; // what the scenes that were loaded use and we do not show
+    double writing = 0; // seconds: encoding and flushing files, and the contact sheet
 };
 
 // Called before each image with how many are done, of how many, and its file name.

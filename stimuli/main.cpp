@@ -31,6 +31,8 @@ Announce announcing(std::optional<Progress>& progress, const std::string& label)
 }
 
 void report(const GenerateResult& result, const fs::path& folder) {
+    for (const std::string& warning : result.warnings)
+        fmt::print(stderr, "warning: {}\n", warning);
     const StageTimes& t = result.times;
     fmt::print("{} images rendered, {} kept, in {}\n", result.rendered, result.kept,
                folder.string());

@@ -24,8 +24,6 @@ Layout layoutOf(Format format) {
         return {GL_R32F, GL_RED, GL_FLOAT, 1, 4};
     case Format::srgb8:
         return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 4};
-    case Format::rgba8:
-        return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 4};
     case Format::rgba16f:
         return {GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 4, 8};
     case Format::rgba32f:

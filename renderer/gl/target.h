@@ -11,7 +11,7 @@
 
 namespace obscura::gl {
 
-enum class Format { r16f, r32f, srgb8, rgba8, rgba16f, rgba32f, depth32f };
+enum class Format { r16f, r32f, srgb8, rgba16f, rgba32f, depth32f };
 
 int channelsOf(Format format);
 

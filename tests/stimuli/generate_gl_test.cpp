@@ -237,6 +237,15 @@ TEST_F(Generate, VerifyingNoticesAnotherRecipe) {
     }
 }
 
+// Never a silent difference between a scene and its image.
+TEST_F(Generate, TellsWhatASceneUsesAndWeDoNotShow) {
+    EXPECT_THAT(run().warnings, testing::IsEmpty());
+    writeFile(root_ / "scenes" / "t.gltf", triangleGltf("", R"(,"alphaMode":"BLEND")"));
+    EXPECT_THAT(run().warnings,
+                testing::ElementsAre(
+                    "scene \"triangle\": material \"m\" is translucent; it is drawn opaque"));
+}
+
 TEST_F(Generate, AMissingSceneNamesItsFile) {
     std::string text = protocolText();
     text.replace(text.find("t.gltf"), 6, "x.gltf");
