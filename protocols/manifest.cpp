@@ -63,6 +63,7 @@ json toJson(const Recipe& recipe) {
             {"sceneSha256", recipe.sceneSha256},
             {"level", toJson(recipe.level)},
             {"environmentSha256", recipe.environmentSha256},
+            {"normals", normalsNames()[static_cast<std::size_t>(recipe.normals)]},
             {"technique", recipe.technique},
             {"settings", recipe.settings},
             {"shaderSha256", recipe.shaderSha256},
@@ -180,6 +181,11 @@ Level readLevel(const Node& node) {
     return level;
 }
 
+Normals readNormals(const Node& node) {
+    const std::string name = node.as<std::string>();
+    return name == "face" ? Normals::face : name == "mapped" ? Normals::mapped : Normals::smooth;
+}
+
 Recipe readRecipe(const Node& node) {
     Recipe recipe;
     node["width"].read(recipe.width);
@@ -190,6 +196,7 @@ Recipe readRecipe(const Node& node) {
     node["sceneSha256"].read(recipe.sceneSha256);
     recipe.level = readLevel(node["level"]);
     node["environmentSha256"].read(recipe.environmentSha256);
+    recipe.normals = readNormals(node["normals"]);
     node["technique"].read(recipe.technique);
     node["settings"].read(recipe.settings);
     node["shaderSha256"].read(recipe.shaderSha256);

@@ -17,6 +17,7 @@ struct Recipe {
     View view;
     std::string sceneSha256; // of the scene's files; of its name and program version when built in
     Level level;
+    Normals normals = Normals::smooth;
     std::string environmentSha256;          // "" without an environment image
     std::string technique;                  // id in the technique table
     std::map<std::string, double> settings; // every parameter, defaults filled in, radius in metres

@@ -313,6 +313,8 @@ Protocol parseRoot(TomlTable root) {
     protocol.seed = static_cast<std::uint64_t>(root.integer("seed", 0, 2147483647));
     if (auto image = root.table("image"))
         parseImage(std::move(*image), protocol);
+    protocol.normals = static_cast<Normals>(
+        root.choice("normals", normalsNames(), static_cast<std::size_t>(protocol.normals)));
     for (auto& [name, table] : root.tables("scenes", "at least one scene, [scenes.NAME]"))
         protocol.views.push_back(parseView(name, std::move(table)));
     for (auto& [name, table] : root.tables("levels", "at least one level, [levels.NAME]"))
@@ -338,6 +340,11 @@ const View& Protocol::view(const std::string& wanted) const { return find(views,
 const Level& Protocol::level(const std::string& wanted) const { return find(levels, wanted); }
 const TechniqueSetting& Protocol::technique(const std::string& wanted) const {
     return find(techniques, wanted);
+}
+
+const std::vector<std::string>& normalsNames() {
+    static const std::vector<std::string> names{"face", "smooth", "mapped"};
+    return names;
 }
 
 Protocol parseProtocol(const std::string& text, const std::string& file) {

@@ -127,12 +127,17 @@ struct Simulation {
     ExGaussian decision{0.9, 0.2, 0.5};
 };
 
+// Which normal occlusion techniques and references work with: the triangle's own, the one
+// interpolated between vertices, or that with the normal map applied. Lighting always has the last.
+enum class Normals { face, smooth, mapped };
+
 struct Protocol {
     std::string name; // lower-case letters, digits and hyphens; names the data folder
     std::string title;
     std::uint64_t seed = 0;
     int width = 1280, height = 720;
     int antialiasing = 4; // jittered frames averaged per image
+    Normals normals = Normals::smooth;
     std::vector<View> views;
     std::vector<Level> levels;
     std::vector<TechniqueSetting> techniques;
@@ -150,6 +155,9 @@ struct Protocol {
     const Level& level(const std::string& name) const;
     const TechniqueSetting& technique(const std::string& name) const;
 };
+
+// Their spellings, in the order of the enumeration.
+const std::vector<std::string>& normalsNames();
 
 // `file` is the name that errors give. Throws Error with line and column.
 Protocol parseProtocol(const std::string& text, const std::string& file);

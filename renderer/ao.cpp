@@ -2,36 +2,67 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
 namespace obscura {
 
 namespace {
 
-// Binding points of a pass's shader.
-constexpr int settingsBinding = 1, pointsBinding = 2;        // blocks; the frame is 0
-constexpr int depthUnit = 0, normalUnit = 1, resultUnit = 2; // samplers; later results follow
+// Binding points of a pass's shader. Blocks; the frame is 0.
+constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4;
+// Samplers; later results follow.
+constexpr int depthUnit = 0, normalUnit = 1, albedoUnit = 2, ambientUnit = 3, directUnit = 4,
+              resultUnit = 5;
+constexpr int group = 128; // compute shaders' pixels that share memory
 
 bool enabled(const Settings& settings, const Pass& pass) {
-    return pass.enabledBy.empty() || settings[pass.enabledBy] != 0;
+    return pass.enabledBy.empty() || settings[pass.enabledBy] >= static_cast<float>(pass.from);
+}
+
+bool computes(const Pass& pass) {
+    return pass.stage == Stage::rows || pass.stage == Stage::columns;
 }
 
 // Consecutive scalars lie in consecutive four-byte slots of std140, so the values upload as they
 // are, rounded up to sixteen bytes.
 gl::UniformBuffer settingsBlock(const Settings& settings) {
     std::vector<float> values = settings.values();
+    if (settings.has("radiusMultiplier"))
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (settings.technique().parameters[i].name == "radius")
+                values[i] *= settings["radiusMultiplier"];
     values.resize((values.size() + 4) / 4 * 4);
     return gl::UniformBuffer(std::as_bytes(std::span(values)));
 }
 
-std::string declareInputs(const Technique& technique) {
-    std::string text = fmt::format("layout(std140, binding = 0) uniform FrameBlock {{ Frame frame; "
-                                   "}};\nlayout(std140, binding = {}) uniform SettingsBlock {{\n",
-                                   settingsBinding);
+void declareBlocks(gl::ShaderText& text, const Technique& technique) {
+    std::string block =
+        fmt::format("layout(std140, binding = 0) uniform FrameBlock {{ Frame frame; "
+                    "}};\nlayout(std140, binding = {}) uniform SettingsBlock {{\n",
+                    settingsBinding);
     for (const Parameter& parameter : technique.parameters)
-        text += fmt::format("    float {};\n", parameter.name);
-    text += "} settings;\n";
-    text += fmt::format("layout(binding = {}) uniform sampler2D depthBuffer;\n", depthUnit);
-    if (technique.normals)
+        block += fmt::format("    float {};\n", parameter.name);
+    block += "} settings;\n";
+    if (technique.reads & spheres)
+        block += fmt::format("layout(std430, binding = {}) readonly buffer SphereBlock {{ vec4 "
+                             "spheres[]; }}; // world position, radius\n",
+                             spheresBinding);
+    text.addFile(shaderFolder(), "frame.h");
+    text.add(block, "(generated declarations)");
+}
+
+std::string declareInputs(const Technique& technique) {
+    std::string text =
+        fmt::format("layout(binding = {}) uniform sampler2D depthBuffer;\n", depthUnit);
+    if (technique.reads & normals)
         text += fmt::format("layout(binding = {}) uniform sampler2D normalBuffer;\n", normalUnit);
+    if (technique.reads & light) {
+        text += fmt::format("layout(binding = {}) uniform sampler2D albedoBuffer;\n", albedoUnit);
+        text += fmt::format("layout(binding = {}) uniform sampler2D ambientLight;\n", ambientUnit);
+        text += fmt::format("layout(binding = {}) uniform sampler2D directLight;\n", directUnit);
+    }
     if (technique.points)
         text += fmt::format("layout(std430, binding = {}) readonly buffer PointBlock {{ vec4 "
                             "points[]; }};\n",
@@ -39,24 +70,88 @@ std::string declareInputs(const Technique& technique) {
     // Every pass's, for a file's other functions must compile too.
     int unit = resultUnit;
     for (const Pass& pass : technique.passes)
-        text +=
-            fmt::format("layout(binding = {}) uniform sampler2D {}Result;\n", unit++, pass.name);
+        text += fmt::format("layout(binding = {}) uniform {} {}Result;\n", unit++,
+                            pass.layers > 1 ? "sampler2DArray" : "sampler2D", pass.name);
     return text;
+}
+
+std::string mainOf(const Settings& settings, const Pass& pass, int level) {
+    std::string call =
+        fmt::format("vec4 value = {}{}(pixel{});\n", pass.name, level > 0 ? "Level" : "",
+                    pass.layers > 1              ? ", layer"
+                    : pass.stage == Stage::splat ? ", sphere"
+                                                 : "");
+    if (enabledPasses(settings).back() == &pass) {
+        if (settings.has("intensity"))
+            call += "    value.r = pow(max(1.0 - settings.intensity * (1.0 - value.r), 0.0), "
+                    "settings.power);\n";
+        call += "    value.r = clamp(value.r, 0.0, 1.0);\n";
+    }
+    if (computes(pass)) {
+        const bool rows = pass.stage == Stage::rows;
+        return fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\n"
+                           "layout(binding = 0, {}) uniform writeonly image2D resultImage;\n"
+                           "void main() {{\n    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
+                           "    {}"
+                           "    if (all(lessThan(pixel, imageSize(resultImage))))\n"
+                           "        imageStore(resultImage, pixel, value);\n}}\n",
+                           rows ? group : 1, rows ? 1 : group, gl::glslName(pass.format), call);
+    }
+    return fmt::format("{}{}layout(location = 0) out vec4 result;\nvoid main() {{\n    ivec2 pixel "
+                       "= ivec2(gl_FragCoord.xy);\n    {}    result = value;\n}}\n",
+                       pass.layers > 1 ? "uniform int layer;\n" : "",
+                       pass.stage == Stage::splat ? "flat in vec4 sphere;\n" : "", call);
+}
+
+gl::Program programOf(const Settings& settings, const Pass& pass, int level,
+                      const std::string& label) {
+    const gl::ShaderText text = passShader(settings, pass, level);
+    if (computes(pass))
+        return gl::Program(label, text);
+    return gl::Program(
+        label, pass.stage == Stage::splat ? splatShader(settings) : shaderText("screen.vert"),
+        text);
 }
 
 } // namespace
 
-gl::ShaderText passShader(const Technique& technique, const Pass& pass) {
+std::vector<const Pass*> enabledPasses(const Settings& settings) {
+    std::vector<const Pass*> result;
+    for (const Pass& pass : settings.technique().passes)
+        if (enabled(settings, pass))
+            result.push_back(&pass);
+    return result;
+}
+
+gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level) {
+    const Technique& technique = settings.technique();
     gl::ShaderText text;
-    text.addFile(shaderFolder(), "frame.h");
+    declareBlocks(text, technique);
     text.add(declareInputs(technique), "(generated declarations)");
-    text.addFile(shaderFolder(), fmt::format("ao/{}.glsl", technique.id));
-    text.add(fmt::format("layout(location = 0) out vec4 result;\n"
-                         "void main() {{ result = {}(ivec2(gl_FragCoord.xy)); }}\n",
-                         pass.name),
-             "(generated main)");
+    if (technique.reads & light)
+        text.addFile(shaderFolder(), "environment.glsl");
+    text.addFile(shaderFolder(), pass.file.empty() ? fmt::format("ao/{}.glsl", technique.id)
+                                                   : std::string(pass.file));
+    text.add(mainOf(settings, pass, level), "(generated main)");
     return text;
 }
+
+gl::ShaderText splatShader(const Settings& settings) {
+    gl::ShaderText text;
+    declareBlocks(text, settings.technique());
+    text.addFile(shaderFolder(), "splat.vert");
+    return text;
+}
+
+int guardPixels(const Settings& settings, int height) {
+    return settings.has("guardBand")
+               ? static_cast<int>(std::ceil(settings["guardBand"] * static_cast<float>(height)))
+               : 0;
+}
+
+ProxySpheres::ProxySpheres(std::span<const glm::vec4> spheres)
+    : count_(static_cast<int>(spheres.size())),
+      buffer_(std::as_bytes(spheres), gl::UniformBuffer::Kind::storage) {}
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
     : settings_(settingsBlock(settings)), open_(gl::constantTexture({1, 1, 1, 1})) {
@@ -67,32 +162,93 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         if (!enabled(settings, pass))
             continue;
         const std::string label = fmt::format("{} {}", technique.id, pass.name);
-        steps_.push_back(
-            {gl::Program(label, shaderText("screen.vert"), passShader(technique, pass)),
-             gl::Target(width, height, std::array{pass.format}, false, label), own});
+        std::optional<gl::Program> levels;
+        if (pass.levels > 1)
+            levels = programOf(settings, pass, 1, label + " levels");
+        const auto scaled = [&](int size) { return (size + pass.scale - 1) / pass.scale; };
+        steps_.push_back({&pass, programOf(settings, pass, 0, label), std::move(levels),
+                          gl::SlicedTarget(scaled(width), scaled(height), pass.format,
+                                           {pass.levels, pass.layers, pass.scale > 1}, label),
+                          own});
     }
     if (technique.points) {
-        const std::vector<glm::vec4> points =
-            technique.points(static_cast<int>(settings["samples"]));
+        const std::vector<glm::vec4> points = technique.points(settings);
         points_.emplace(std::as_bytes(std::span(points)), gl::UniformBuffer::Kind::storage);
     }
 }
 
-const gl::Texture& OcclusionPasses::visibility(const GBuffer& gbuffer) const {
+void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     settings_.bind(settingsBinding);
     if (points_)
         points_->bind(pointsBinding);
-    gl::bindTexture(depthUnit, gbuffer.depth());
-    if (gbuffer.normal())
-        gl::bindTexture(normalUnit, *gbuffer.normal());
-    gl::State{}.apply();
-    for (const Step& step : steps_) {
-        step.target.bind();
-        step.program.use();
-        triangle_.draw();
-        gl::bindTexture(step.unit, step.target.colour(0));
+    gl::bindTexture(depthUnit, inputs.gbuffer.depth());
+    if (inputs.gbuffer.occlusionNormal())
+        gl::bindTexture(normalUnit, *inputs.gbuffer.occlusionNormal());
+    if (inputs.light) {
+        gl::bindTexture(albedoUnit, inputs.gbuffer.albedo());
+        gl::bindTexture(ambientUnit, inputs.light->ambient());
+        gl::bindTexture(directUnit, inputs.light->direct());
+        inputs.lighting->environment().bind(environmentBinding);
     }
-    return steps_.empty() ? open_ : steps_.back().target.colour(0);
+    if (inputs.spheres)
+        inputs.spheres->bind(spheresBinding);
+}
+
+void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const {
+    const gl::SlicedTarget& target = step.target;
+    step.program.use();
+    if (computes(*step.pass)) {
+        const auto groups = [](int size, bool shared) {
+            return shared ? (size + group - 1) / group : size;
+        };
+        target.bindImage(0);
+        gl::compute(groups(target.width(), step.pass->stage == Stage::rows),
+                    groups(target.height(), step.pass->stage == Stage::columns));
+        return;
+    }
+    gl::State state;
+    state.add = step.pass->stage == Stage::splat;
+    state.apply();
+    for (int layer = 0; layer < target.slices().layers; ++layer) {
+        target.bind(0, layer);
+        if (target.slices().layers > 1)
+            step.program.set("layer", layer);
+        if (state.add) {
+            target.clear();
+            triangle_.drawQuads(inputs.spheres->count());
+        } else {
+            triangle_.draw();
+        }
+    }
+    if (target.slices().levels == 1)
+        return;
+    step.levelProgram->use();
+    gl::bindTexture(step.unit, target.texture());
+    for (int level = 1; level < target.slices().levels; ++level) {
+        target.bind(level, 0);
+        triangle_.draw();
+    }
+    target.readAll();
+}
+
+const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs) const {
+    bindInputs(inputs);
+    for (const Step& step : steps_) {
+        run(step, inputs);
+        gl::bindTexture(step.unit, step.target.texture());
+    }
+    return steps_.empty() ? open_ : steps_.back().target.texture();
+}
+
+bool OcclusionPasses::sendsLight() const {
+    return !steps_.empty() && gl::channelsOf(steps_.back().target.format()) == 4;
+}
+
+const gl::SlicedTarget& OcclusionPasses::result(std::string_view pass) const {
+    const auto found = std::find_if(steps_.begin(), steps_.end(),
+                                    [&](const Step& step) { return step.pass->name == pass; });
+    assert(found != steps_.end() && "no such pass, or it is switched off");
+    return found->target;
 }
 
 } // namespace obscura

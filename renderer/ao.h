@@ -1,31 +1,69 @@
 #pragma once
 
-#include "renderer/gbuffer.h"
+#include "renderer/light.h"
 #include "renderer/settings.h"
 
 #include <optional>
 
 namespace obscura {
 
-// The assembled fragment shader of a technique's pass: frame, settings, samplers, the technique's
-// file, and a main that calls the pass's function.
-gl::ShaderText passShader(const Technique& technique, const Pass& pass);
+// The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
+// technique's file, and a main that calls the pass's function. `level` 1 is the text for the levels
+// after the first. splat's vertex shader comes from splatShader().
+gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0);
+gl::ShaderText splatShader(const Settings& settings);
+// In order; those that settings switch off left out.
+std::vector<const Pass*> enabledPasses(const Settings& settings);
 
-// A technique's passes over a G-buffer of one size: depth (and normals) in, visibility out.
+// Pixels that the technique wants rendered beyond each border of an image (guardBand).
+int guardPixels(const Settings& settings, int height);
+
+// The scene's proxy spheres where shaders can read them: world position, radius (metres).
+class ProxySpheres {
+  public:
+    explicit ProxySpheres(std::span<const glm::vec4> spheres);
+    int count() const { return count_; }
+    void bind(int binding) const { buffer_.bind(binding); }
+
+  private:
+    int count_;
+    gl::UniformBuffer buffer_;
+};
+
+// What techniques may read, each there where the technique's row asks for it.
+struct OcclusionInputs {
+    const GBuffer& gbuffer;
+    const LightBuffers* light = nullptr;
+    const Lighting* lighting = nullptr;
+    const ProxySpheres* spheres = nullptr;
+};
+
+// A technique's passes over a G-buffer of one size: depth (and what else it reads) in, visibility
+// out.
 class OcclusionPasses {
   public:
     OcclusionPasses(const Settings& settings, int width, int height);
 
     // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
     // texture lives as long as this object.
-    const gl::Texture& visibility(const GBuffer& gbuffer) const;
+    const gl::Texture& visibility(const OcclusionInputs& inputs) const;
+    // Whether that texture's other channels are light to add (technique.h).
+    bool sendsLight() const;
+
+    // What a pass gave in the last run, for tests and for looking at.
+    const gl::SlicedTarget& result(std::string_view pass) const;
 
   private:
     struct Step {
+        const Pass* pass;
         gl::Program program;
-        gl::Target target;
+        std::optional<gl::Program> levelProgram;
+        gl::SlicedTarget target;
         int unit; // that later passes read it from
     };
+    void bindInputs(const OcclusionInputs& inputs) const;
+    void run(const Step& step, const OcclusionInputs& inputs) const;
+
     std::vector<Step> steps_;
     gl::UniformBuffer settings_;
     std::optional<gl::UniformBuffer> points_;

@@ -9,8 +9,7 @@ gl::ShaderText compositeShader() { return shaderText("composite.frag"); }
 Composite::Composite(const View& view, const Level& level, int width, int height, bool linear)
     : program_("composite", shaderText("screen.vert"), compositeShader()),
       sum_(width, height, std::vector<gl::Format>(linear ? 2 : 1, gl::Format::rgba32f), false,
-           "sum of frames"),
-      none_(gl::constantTexture({0, 0, 0, 0})) {
+           "sum of frames") {
     for (int i = 0; i < sum_.count(); ++i)
         sum_.clear(i, {0, 0, 0, 0});
     program_.set("exposure", static_cast<float>(std::exp2(view.exposure)));
@@ -19,14 +18,17 @@ Composite::Composite(const View& view, const Level& level, int width, int height
     program_.set("occludeDirect", level.occludeDirect ? 1 : 0);
 }
 
-void Composite::draw(const LightBuffers& light, const gl::Texture& visibility) {
+void Composite::draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight,
+                     int guard) {
     sum_.bind();
     gl::State state;
     state.add = true;
     state.apply();
     program_.use();
+    program_.set("sendsLight", sendsLight ? 1 : 0);
+    program_.set("guard", guard);
     gl::bindTexture(0, light.ambient());
-    gl::bindTexture(1, light.direct() ? *light.direct() : none_);
+    gl::bindTexture(1, light.direct());
     gl::bindTexture(2, visibility);
     triangle_.draw();
     ++frames_;

@@ -12,7 +12,10 @@ class Composite {
     // `linear` keeps the average before the display curve too.
     Composite(const View& view, const Level& level, int width, int height, bool linear);
 
-    void draw(const LightBuffers& light, const gl::Texture& visibility);
+    // The visibility buffer is `guard` pixels wider than the image on every side; with `sendsLight`
+    // its other channels are light to add (technique.h).
+    void draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight = false,
+              int guard = 0);
 
     // Red, green, blue (display-linear, 0 ... 1) and visibility; rows from the bottom.
     std::vector<float> mean() const { return mean(0); }
@@ -24,7 +27,6 @@ class Composite {
 
     gl::Program program_;
     gl::Target sum_;
-    gl::Texture none_;
     gl::ScreenTriangle triangle_;
     int frames_ = 0;
 };

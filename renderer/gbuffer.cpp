@@ -32,10 +32,13 @@ std::span<const std::byte> bytesOf(const std::vector<Vertex>& vertices) {
 } // namespace
 
 Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
-                std::uint64_t seed, glm::vec2 jitter) {
+                std::uint64_t seed, glm::vec2 jitter, int guard) {
     const glm::dmat4 viewFromWorld =
         glm::lookAt(vec(camera.position), vec(camera.target), vec(camera.up));
-    const double scaleY = 1 / std::tan(glm::radians(camera.fovDegrees) / 2);
+    const int inner = height;
+    width += 2 * guard;
+    height += 2 * guard;
+    const double scaleY = inner / std::tan(glm::radians(camera.fovDegrees) / 2) / height;
     const double scaleX = scaleY * height / width;
     const double shiftX = 2.0 * static_cast<double>(jitter.x) / width;
     const double shiftY = 2.0 * static_cast<double>(jitter.y) / height;
@@ -125,17 +128,32 @@ void DepthPass::draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool
 
 namespace {
 
-std::vector<gl::Format> gbufferFormats(bool normals) {
-    std::vector<gl::Format> formats{gl::Format::srgb8, gl::Format::r32f};
-    if (normals)
-        formats.push_back(gl::Format::rgba16f);
+std::vector<gl::Format> gbufferFormats(const GBufferContent& content) {
+    using gl::Format;
+    const bool mapped = content.occlusionNormal == Normals::mapped;
+    std::vector<Format> formats{content.albedo ? Format::srgb8 : Format::none, Format::r32f,
+                                content.shadingNormal || mapped ? Format::rgba16f : Format::none,
+                                content.occlusionNormal && !mapped ? Format::rgba16f
+                                                                   : Format::none};
+    while (formats.back() == Format::none)
+        formats.pop_back();
     return formats;
 }
 
 } // namespace
 
-GBuffer::GBuffer(int width, int height, bool normals)
-    : target_(width, height, gbufferFormats(normals), true, "G-buffer") {}
+GBuffer::GBuffer(int width, int height, GBufferContent content)
+    : content_(content), target_(width, height, gbufferFormats(content), true, "G-buffer") {}
+
+const gl::Texture* GBuffer::shadingNormal() const {
+    return target_.has(2) ? &target_.colour(2) : nullptr;
+}
+
+const gl::Texture* GBuffer::occlusionNormal() const {
+    if (!content_.occlusionNormal)
+        return nullptr;
+    return &target_.colour(*content_.occlusionNormal == Normals::mapped ? 2 : 3);
+}
 
 gl::UniformBuffer frameBuffer(const Frame& frame) {
     return gl::UniformBuffer(std::as_bytes(std::span(&frame, 1)));
@@ -150,10 +168,11 @@ void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer&
     const gl::Target& target = gbuffer.target();
     target.bind();
     gl::State{}.apply();
-    target.clear(0, {0, 0, 0, 0});
-    target.clear(1, {frame.depth.y, 0, 0, 0});
-    if (gbuffer.normal())
-        target.clear(2, {0, 0, 1, 1});
+    const std::array<float, 4> empty[] = {
+        {0, 0, 0, 0}, {frame.depth.y, 0, 0, 0}, {0, 0, 1, 1}, {0, 0, 1, 1}};
+    for (int i = 0; i < target.count(); ++i)
+        if (target.has(i))
+            target.clear(i, empty[i]);
     gl::State state;
     state.depth = gl::State::Depth::reversed;
     state.colour = false;
@@ -163,6 +182,7 @@ void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer&
     depth_.draw(scene, clipFromWorld, true, state);
     state.depth = gl::State::Depth::equal;
     state.colour = true;
+    program_.set("faceNormals", gbuffer.content().occlusionNormal == Normals::face ? 1 : 0);
     program_.setMatrix("clipFromWorld",
                        std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
     scene.draw(program_, GpuScene::Take::all, true, state);

@@ -12,9 +12,10 @@
 namespace obscura {
 
 // Where a camera's pixels are. `bounds` decides the depth of empty pixels (beyond the scene);
-// `jitter` moves the image by a fraction of a pixel, -0.5 ... 0.5.
+// `jitter` moves the image by a fraction of a pixel, -0.5 ... 0.5. A frame with `guard` is that
+// many pixels wider on every side, and its middle is the frame without.
 Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
-                std::uint64_t seed, glm::vec2 jitter = {0, 0});
+                std::uint64_t seed, glm::vec2 jitter = {0, 0}, int guard = 0);
 
 // A scene where the GPU can read it.
 class GpuScene {
@@ -40,23 +41,31 @@ class GpuScene {
     gl::Texture white_;
 };
 
-// What is seen at each pixel. View space as in shaders/view.glsl.
+// What a G-buffer holds besides depth.
+struct GBufferContent {
+    bool albedo = true;
+    bool shadingNormal = false;             // with the normal map
+    std::optional<Normals> occlusionNormal; // for techniques and references
+};
+
+// What is seen at each pixel. View space as in shaders/view.glsl. Buffers that were not asked for
+// do not exist; an occlusion normal that is `mapped` is the shading normal.
 class GBuffer {
   public:
-    // Without `normals` the buffer of normals does not exist.
-    GBuffer(int width, int height, bool normals);
+    GBuffer(int width, int height, GBufferContent content);
 
     const gl::Target& target() const { return target_; }
-    const gl::Texture& albedo() const {
-        return target_.colour(0);
-    }                                                              // sRGB; alpha: specular
-                                                                   // intensity
-    const gl::Texture& depth() const { return target_.colour(1); } // linear view depth, metres
-    const gl::Texture* normal() const { // view-space unit vector; alpha: specular power
-        return target_.count() > 2 ? &target_.colour(2) : nullptr;
-    }
+    const GBufferContent& content() const { return content_; }
+    // sRGB; alpha: specular intensity.
+    const gl::Texture& albedo() const { return target_.colour(0); }
+    // Linear view depth, metres.
+    const gl::Texture& depth() const { return target_.colour(1); }
+    // View-space unit vectors; null where there is none.
+    const gl::Texture* shadingNormal() const; // alpha: specular power
+    const gl::Texture* occlusionNormal() const;
 
   private:
+    GBufferContent content_;
     gl::Target target_;
 };
 

@@ -124,7 +124,8 @@ constexpr int shadowMapSize = 4096;
 } // namespace
 
 LightBuffers::LightBuffers(int width, int height, bool direct)
-    : target_(width, height, lightFormats(direct), false, "light") {}
+    : target_(width, height, lightFormats(direct), false, "light"),
+      none_(gl::constantTexture({0, 0, 0, 0})) {}
 
 gl::ShaderText lightShader(const Level& level) {
     gl::ShaderText text;
@@ -138,19 +139,48 @@ gl::ShaderText lightShader(const Level& level) {
     return text;
 }
 
+namespace {
+
+// Empty with constant ambient light.
+Image panoramaOf(const Level& level, const std::filesystem::path& environment) {
+    return level.ambient ? Image{}
+           : level.sky   ? skyPanorama(*level.sky)
+                         : readImage(environment, 3);
+}
+
+// Constant radiance L arrives as irradiance pi L whichever way a surface faces.
+Irradiance constantIrradiance(const Vec3& radiance) {
+    Irradiance result{};
+    for (std::size_t c = 0; c < 3; ++c)
+        result[0][c] = static_cast<float>(pi * radiance[c] / 0.282095);
+    return result;
+}
+
+gl::UniformBuffer environmentBlock(const Irradiance& irradiance) {
+    std::array<glm::vec4, 9> block{};
+    for (std::size_t i = 0; i < 9; ++i)
+        block[i] = {irradiance[i][0], irradiance[i][1], irradiance[i][2], 0};
+    return gl::UniformBuffer(std::as_bytes(std::span(block)));
+}
+
+} // namespace
+
 Lighting::Lighting(const Level& level, const GpuScene& scene,
                    const std::filesystem::path& environment)
-    : level_(level), program_("light", shaderText("screen.vert"), lightShader(level)) {
+    : Lighting(level, scene, panoramaOf(level, environment)) {}
+
+Lighting::Lighting(const Level& level, const GpuScene& scene, const Image& panorama)
+    : level_(level),
+      environment_(environmentBlock(level.ambient ? constantIrradiance(*level.ambient)
+                                                  : irradianceOf(panorama))),
+      program_("light", shaderText("screen.vert"), lightShader(level)) {
     if (level.sun)
         shadow_.emplace(scene, *level.sun, shadowMapSize);
     if (level.ambient) {
         program_.set("ambient", span3(glm::vec3(vec(*level.ambient))));
         program_.set("background", span3(glm::vec3(vec(level.background))));
     } else {
-        const Image panorama = level.sky ? skyPanorama(*level.sky) : readImage(environment, 3);
         panorama_ = gl::panoramaTexture(panorama.width, panorama.height, panorama.pixels);
-        const Irradiance irradiance = irradianceOf(panorama);
-        program_.setArray("irradiance", std::span(irradiance[0].data(), 27));
     }
     if (level.sun) {
         program_.set("sunDirection", span3(directionOf(*level.sun)));
@@ -168,9 +198,10 @@ void Lighting::draw(const GBuffer& gbuffer, const LightBuffers& light) const {
     gl::bindTexture(0, gbuffer.albedo());
     gl::bindTexture(1, gbuffer.depth());
     if (readsNormals())
-        gl::bindTexture(2, *gbuffer.normal());
+        gl::bindTexture(2, *gbuffer.shadingNormal());
     if (panorama_)
         gl::bindTexture(3, panorama_);
+    environment_.bind(3);
     if (shadow_)
         gl::bindTexture(4, shadow_->depth());
     triangle_.draw();

@@ -43,10 +43,11 @@ class LightBuffers {
     LightBuffers(int width, int height, bool direct);
     const gl::Target& target() const { return target_; }
     const gl::Texture& ambient() const { return target_.colour(0); } // and the background
-    const gl::Texture* direct() const { return target_.count() > 1 ? &target_.colour(1) : nullptr; }
+    const gl::Texture& direct() const { return target_.count() > 1 ? target_.colour(1) : none_; }
 
   private:
     gl::Target target_;
+    gl::Texture none_; // black
 };
 
 // A level's lighting, ready to draw. `environment` is the level's panorama file; unused otherwise.
@@ -56,12 +57,17 @@ class Lighting {
 
     bool readsNormals() const { return !level_.ambient || level_.sun; }
     bool hasDirect() const { return level_.sun.has_value(); }
+    // Irradiance for shaders/environment.glsl.
+    const gl::UniformBuffer& environment() const { return environment_; }
     // The frame must be bound.
     void draw(const GBuffer& gbuffer, const LightBuffers& light) const;
 
   private:
+    explicit Lighting(const Level& level, const GpuScene& scene, const Image& panorama);
+
     Level level_;
-    gl::Texture panorama_;
+    gl::Texture panorama_; // without constant ambient light
+    gl::UniformBuffer environment_;
     std::optional<ShadowMap> shadow_;
     gl::Program program_;
     gl::ScreenTriangle triangle_;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 struct Options {
     bool devices = false, list = false, layers = false;
     std::string device, scene = "atrium", techniqueId = "none", level = "moderate", scenes;
-    std::string recipe, describe;
+    std::string recipe, describe, normals = "smooth";
     std::vector<std::string> settings;
     std::vector<double> camera;
     double fovDegrees = 50, radius = 0.5, exposure = 0;
@@ -56,6 +56,10 @@ std::string_view spell(Unit unit) {
         return "m";
     case Unit::ratio:
         return "ratio";
+    case Unit::degree:
+        return "degrees";
+    case Unit::pixel:
+        return "pixels";
     case Unit::count:
         return "count";
     case Unit::flag:
@@ -68,8 +72,9 @@ int printTechnique(const std::string& id) {
     const Technique& row = technique(id);
     fmt::print("{}: {}\n{}\n", row.id, row.title, row.citation);
     for (const Parameter& parameter : row.parameters)
-        fmt::print("  {:<16} {:>8} {:<7} [{}, {}]  {}\n", parameter.name, parameter.value,
-                   spell(parameter.unit), parameter.low, parameter.high, parameter.meaning);
+        fmt::print("  {:<16} {:>8} {:<7} [{}, {}]  {}; {}\n", parameter.name, parameter.value,
+                   spell(parameter.unit), parameter.low, parameter.high, parameter.meaning,
+                   parameter.source);
     return 0;
 }
 
@@ -111,6 +116,9 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     protocol.width = options.width;
     protocol.height = options.height;
     protocol.antialiasing = options.antialiasing;
+    protocol.normals = static_cast<Normals>(
+        std::find(normalsNames().begin(), normalsNames().end(), options.normals) -
+        normalsNames().begin());
     View view;
     view.name = options.scene;
     const auto builtins = builtinSceneNames();
@@ -202,6 +210,9 @@ int run(int argc, char** argv) {
     app.add_option("--height", options.height)->check(CLI::Range(1, 16384))->capture_default_str();
     app.add_option("--antialiasing", options.antialiasing, "jittered frames averaged")
         ->check(CLI::Range(1, 64))
+        ->capture_default_str();
+    app.add_option("--normals", options.normals, "what occlusion works with: face, smooth, mapped")
+        ->check(CLI::IsMember(normalsNames()))
         ->capture_default_str();
     app.add_option("--seed", options.seed)->capture_default_str();
     app.add_option("--protocol", options.protocol, "take everything from a protocol's condition");

@@ -121,8 +121,12 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
     for (const bool masked : {false, true})
         hash.add(DepthPass::fragmentShader(masked).text());
     hash.add(lightShader(level).text());
-    for (const Pass& pass : settings.technique().passes)
-        hash.add(passShader(settings.technique(), pass).text());
+    for (const Pass* pass : enabledPasses(settings)) {
+        for (int l = 0; l < (pass->levels > 1 ? 2 : 1); ++l)
+            hash.add(passShader(settings, *pass, l).text());
+        if (pass->stage == Stage::splat)
+            hash.add(splatShader(settings).text());
+    }
     hash.add(compositeShader().text());
     return hash.hex();
 }
@@ -138,6 +142,7 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
     recipe.height = protocol.height;
     recipe.antialiasing = protocol.antialiasing;
     recipe.seed = protocol.seed;
+    recipe.normals = protocol.normals;
     recipe.view = view;
     recipe.level = level;
     try {
@@ -161,6 +166,7 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
 struct RecipeRenderer::Stage {
     std::string sceneSha256, lighting; // what is loaded; the latter as text
     std::optional<GpuScene> scene;
+    std::optional<ProxySpheres> spheres; // once a technique has read them
     std::optional<Lighting> light;
     GBufferPass gbufferPass;
 };
@@ -211,10 +217,19 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
     StageClock clock;
     prepare(recipe);
     const Lighting& lighting = *stage_->light;
-    const GBuffer gbuffer(recipe.width, recipe.height,
-                          settings.technique().normals || lighting.readsNormals());
+    const int guard = guardPixels(settings, recipe.height);
+    GBufferContent content;
+    content.shadingNormal = lighting.readsNormals();
+    if (settings.technique().reads & normals)
+        content.occlusionNormal = recipe.normals;
+    const GBuffer gbuffer(recipe.width, recipe.height, content);
+    // What the technique sees, where that is more than the image shows.
+    std::optional<GBuffer> padded;
+    if (guard > 0)
+        padded.emplace(recipe.width + 2 * guard, recipe.height + 2 * guard,
+                       GBufferContent{false, false, content.occlusionNormal});
     const LightBuffers light(recipe.width, recipe.height, lighting.hasDirect());
-    const OcclusionPasses occlusion(settings, recipe.width, recipe.height);
+    const OcclusionPasses occlusion(settings, recipe.width + 2 * guard, recipe.height + 2 * guard);
     Composite composite(recipe.view, recipe.level, recipe.width, recipe.height, layers);
     clock.mark(times_.scene);
 
@@ -238,15 +253,25 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
             firstDepth =
                 gl::readFloats(gbuffer.depth(), recipe.width, recipe.height, gl::Format::r32f);
             empty = frame.depth.y;
+            constexpr const char* names[] = {"albedo", "depth", "normal", "occlusion-normal"};
             for (int c = 0; layers && c < gbuffer.target().count(); ++c)
-                result
-                    .layers[std::array{"albedo", "depth", "normal"}[static_cast<std::size_t>(c)]] =
-                    layerOf(gbuffer.target(), c);
+                if (gbuffer.target().has(c))
+                    result.layers[names[c]] = layerOf(gbuffer.target(), c);
         }
         clock.mark(times_.hash);
-        const gl::Texture& visibility = occlusion.visibility(gbuffer);
+        if (padded) {
+            const Frame wide =
+                makeFrame(recipe.view.camera, recipe.width, recipe.height, stage_->scene->bounds(),
+                          recipe.seed, jitterOf(i, recipe.antialiasing), guard);
+            const gl::UniformBuffer wideBlock = frameBuffer(wide);
+            bindFrame(wideBlock);
+            stage_->gbufferPass.draw(*stage_->scene, wide, *padded);
+        }
+        const gl::Texture& visibility =
+            occlusion.visibility({padded ? *padded : gbuffer, &light, &lighting,
+                                  stage_->spheres ? &*stage_->spheres : nullptr});
         clock.mark(times_.occlusion);
-        composite.draw(light, visibility);
+        composite.draw(light, visibility, occlusion.sendsLight(), guard);
         clock.mark(times_.composite);
     }
 

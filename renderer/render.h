@@ -43,7 +43,7 @@ struct Rendering {
     Image visibility; // 1 channel
     std::map<std::string, Image>
         layers;               // on request: "linear" (before the display curve), "albedo",
-                              // "normal", "depth" (of the first jittered frame)
+                              // "normal", "occlusion-normal", "depth" (of the first jittered frame)
     std::string inputsSha256; // of what composite and lighting read, for every jittered frame:
                               // albedo, depth, ambient and direct light, and normals where the
                               // lighting reads them

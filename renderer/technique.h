@@ -11,44 +11,85 @@
 namespace obscura {
 
 // What a row of the technique table says. Command line, protocol checks, manifest, shader
-// assembly and tests all read it from there; nothing about a technique stands anywhere else but in
-// its shader.
+// assembly, docs/techniques.md and tests all read it from there; nothing about a technique stands
+// anywhere else but in its shader.
+
+class Settings;
 
 enum class Unit {
-    metre, // of the scene
-    ratio, // of the thing that the meaning names
-    count, // whole number
-    flag   // 0 or 1
+    metre,  // of the scene
+    ratio,  // of the thing that the meaning names
+    degree, //
+    pixel,  //
+    count,  // whole number
+    flag    // 0 or 1
 };
 
 struct Parameter {
     std::string_view name;
     Unit unit;
     std::string_view meaning;
-    float value, low, high; // default and range, both ends included
+    float value, low, high;  // default and range, both ends included
+    std::string_view source; // of the default: paper and section, program, or "ours: why"
 };
 
-// One screen-sized pass: the function of this name in the technique's shader, vec4 name(ivec2
-// pixel). Later passes read its output from a sampler called nameResult.
+// How a pass is run. A function of the pass's name in the technique's shader gives each pixel's
+// value; what differs is who calls it.
+enum class Stage {
+    screen,  // vec4 name(ivec2 pixel), drawn over the whole target
+    rows,    // the same in a compute shader, in groups of 128 x 1 that may share memory. Called for
+             // pixels right of the target too (their value is dropped), so that all reach barriers
+    columns, // the same in groups of 1 x 128
+    splat    // vec4 name(ivec2 pixel, vec4 sphere), once per proxy sphere (view space) over the
+             // pixels within `radius` of it, all added up
+};
+
+// One pass. Later passes read its output from a sampler called nameResult.
 struct Pass {
     std::string_view name;
     gl::Format format;
-    std::string_view enabledBy = {}; // a flag parameter; 0 leaves the pass out
+    std::string_view enabledBy = {}; // a flag or count; the pass runs where it is at least `from`
+    int from = 1;
+    int scale = 1;  // its target has 1 / scale of the width and height, rounded up; pixels are the
+                    // target's. Above 1, reading by texture() filters linearly
+    int levels = 1; // of detail: the pass gives level 0; vec4 nameLevel(ivec2 pixel) gives each
+                    // next one and finds the one before in level 0 of nameResult
+    int layers =
+        1; // above 1: vec4 name(ivec2 pixel, int layer), and nameResult is a sampler2DArray
+    Stage stage = Stage::screen;
+    std::string_view file = {}; // of the shader folder; without it ao/<id of technique>.glsl
 };
 
-// A set of sample points that the shader reads as points[i], made once per setting of its count.
-using PointSet = std::vector<glm::vec4> (*)(int count);
+// What a technique reads besides depth; buffers that nobody reads do not exist.
+enum Reads : unsigned {
+    depthOnly = 0,
+    normals = 1, // normalBuffer: view space
+    light = 2,   // albedoBuffer, ambientLight, directLight; environment.glsl
+    spheres = 4, // proxy spheres of the scene (renderer/proxies.h)
+    rays = 8     // the triangles themselves: no passes, the reference gives visibility
+};
+
+// A set of sample points that the shader reads as points[i], made once per settings.
+using PointSet = std::vector<glm::vec4> (*)(const Settings&);
 
 struct Technique {
     std::string_view id;
     std::string_view title;
     std::string_view citation;
-    bool normals; // reads the G-buffer's normals, not depth alone
+    unsigned reads; // of Reads
     PointSet points;
     std::span<const Parameter> parameters;
-    // The last pass gives visibility in red: 1 open, 0 blocked. No passes: everything is open.
+    // The last enabled pass gives visibility in red: 1 open, 0 blocked. Where its format has four
+    // channels, the others are light that the pixel sends to the camera besides its ambient light
+    // times visibility: bounced, or redistributed. No passes: everything is open.
     std::span<const Pass> passes;
 };
+
+// Parameters that mean the same in every technique that has them, so the table's users need not
+// know the technique: `radius` (metres) is multiplied by `radiusMultiplier` before the shader sees
+// it; the last pass's visibility v becomes max(0, 1 - intensity (1 - v))^power, clamped to [0, 1].
+// Matching (stimuli/match.h) fits the latter three. `guardBand` is the share of the image's height
+// that is rendered beyond each of its borders for the technique's eyes only.
 
 std::span<const Technique> techniques();
 
@@ -56,25 +97,39 @@ std::span<const Technique> techniques();
 const Technique& technique(std::string_view id);
 
 // What static_assert holds the table to: unique ids, a citation, defaults inside ranges, flags and
-// counts whole, passes enabled by flags that exist.
+// counts whole, passes enabled by parameters that exist.
+constexpr bool isWhole(const Parameter& parameter) {
+    return parameter.unit == Unit::count || parameter.unit == Unit::flag;
+}
+
 constexpr bool wellFormed(const Parameter& parameter) {
-    const bool whole = parameter.unit == Unit::count || parameter.unit == Unit::flag;
     const bool inside = parameter.low <= parameter.value && parameter.value <= parameter.high;
-    return !parameter.name.empty() && !parameter.meaning.empty() && inside &&
-           (!whole || parameter.value == static_cast<float>(static_cast<int>(parameter.value)));
+    return !parameter.name.empty() && !parameter.meaning.empty() && !parameter.source.empty() &&
+           inside &&
+           (!isWhole(parameter) ||
+            parameter.value == static_cast<float>(static_cast<int>(parameter.value)));
+}
+
+constexpr bool wellFormed(const Pass& pass, std::span<const Parameter> parameters) {
+    bool found = pass.enabledBy.empty();
+    for (const Parameter& parameter : parameters)
+        found |= parameter.name == pass.enabledBy && isWhole(parameter);
+    const bool compute = pass.stage == Stage::rows || pass.stage == Stage::columns;
+    const bool single = pass.levels == 1 && pass.layers == 1;
+    return found && pass.scale >= 1 && pass.levels >= 1 && pass.layers >= 1 && (single || !compute);
 }
 
 constexpr bool wellFormed(const Technique& technique) {
-    for (const Parameter& parameter : technique.parameters)
-        if (!wellFormed(parameter))
-            return false;
-    for (const Pass& pass : technique.passes) {
-        bool found = pass.enabledBy.empty();
-        for (const Parameter& parameter : technique.parameters)
-            found |= parameter.name == pass.enabledBy && parameter.unit == Unit::flag;
-        if (!found)
+    for (std::size_t i = 0; i < technique.parameters.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            if (technique.parameters[i].name == technique.parameters[j].name)
+                return false;
+        if (!wellFormed(technique.parameters[i]))
             return false;
     }
+    for (const Pass& pass : technique.passes)
+        if (!wellFormed(pass, technique.parameters))
+            return false;
     return !technique.id.empty() && !technique.title.empty() && !technique.citation.empty();
 }
 

@@ -70,6 +70,17 @@ void ScreenTriangle::draw() const {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void ScreenTriangle::drawQuads(int count) const {
+    glBindVertexArray(array_.name());
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
+}
+
+void compute(int groupsX, int groupsY) {
+    glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY), 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |
+                    GL_FRAMEBUFFER_BARRIER_BIT);
+}
+
 void finish() { glFinish(); }
 
 } // namespace obscura::gl

@@ -49,15 +49,19 @@ class UniformBuffer {
     Kind kind_;
 };
 
-// One triangle that covers the bound target (shaders/screen.vert).
+// What needs no vertex data: the shader makes its corners from gl_VertexID.
 class ScreenTriangle {
   public:
     ScreenTriangle() : array_(GL_NONE) {}
-    void draw() const;
+    void draw() const; // one triangle that covers the bound target (shaders/screen.vert)
+    void drawQuads(int count) const; // one quad per gl_InstanceID (shaders/splat.vert)
 
   private:
     VertexArray array_;
 };
+
+// Runs the bound compute shader; what it writes can be sampled, drawn over and read back after.
+void compute(int groupsX, int groupsY);
 
 void finish(); // waits until everything issued is done
 

@@ -91,14 +91,25 @@ Program::Program(const std::string& label, const ShaderText& vertex, const Shade
     const ShaderObject fragmentShader = compile(GL_FRAGMENT_SHADER, fragment, label);
     glAttachShader(program_.name(), vertexShader.name());
     glAttachShader(program_.name(), fragmentShader.name());
+    link();
+}
+
+Program::Program(const std::string& label, const ShaderText& compute)
+    : label_(label), program_(GL_NONE) {
+    const ShaderObject shader = compile(GL_COMPUTE_SHADER, compute, label);
+    glAttachShader(program_.name(), shader.name());
+    link();
+}
+
+void Program::link() {
     glLinkProgram(program_.name());
-    glObjectLabel(GL_PROGRAM, program_.name(), -1, label.c_str());
+    glObjectLabel(GL_PROGRAM, program_.name(), -1, label_.c_str());
     GLint linked = GL_FALSE;
     glGetProgramiv(program_.name(), GL_LINK_STATUS, &linked);
     if (!linked) {
         char log[4096] = {};
         glGetProgramInfoLog(program_.name(), sizeof log, nullptr, log);
-        throw Error(fmt::format("shader \"{}\" does not link: {}", label, log));
+        throw Error(fmt::format("shader \"{}\" does not link: {}", label_, log));
     }
 }
 
@@ -124,10 +135,6 @@ void Program::set(const char* uniform, std::span<const float, 4> value) const {
 }
 void Program::setMatrix(const char* uniform, std::span<const float, 16> columns) const {
     glProgramUniformMatrix4fv(program_.name(), location(uniform), 1, GL_FALSE, columns.data());
-}
-void Program::setArray(const char* uniform, std::span<const float> triples) const {
-    glProgramUniform3fv(program_.name(), location(uniform),
-                        static_cast<GLsizei>(triples.size() / 3), triples.data());
 }
 
 } // namespace obscura::gl

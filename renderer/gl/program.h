@@ -38,11 +38,12 @@ class ShaderText {
     std::set<std::string> included_;
 };
 
-// A linked program of a vertex and a fragment shader. A shader that does not compile is an Error
-// with the file and line of each complaint.
+// A linked program of a vertex and a fragment shader, or of a compute shader. A shader that does
+// not compile is an Error with the file and line of each complaint.
 class Program {
   public:
     Program(const std::string& label, const ShaderText& vertex, const ShaderText& fragment);
+    Program(const std::string& label, const ShaderText& compute);
 
     void use() const;
     // Sets a uniform of this program; a name it does not have is an assertion.
@@ -51,9 +52,9 @@ class Program {
     void set(const char* uniform, std::span<const float, 3> value) const;
     void set(const char* uniform, std::span<const float, 4> value) const;
     void setMatrix(const char* uniform, std::span<const float, 16> columns) const;
-    void setArray(const char* uniform, std::span<const float> triples) const; // vec3[]
 
   private:
+    void link();
     int location(const char* uniform) const;
 
     std::string label_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 namespace obscura::gl {
 
@@ -18,10 +19,20 @@ struct Layout {
 
 Layout layoutOf(Format format) {
     switch (format) {
+    case Format::none:
+        return {GL_NONE, GL_NONE, GL_NONE, 0, 0};
+    case Format::r8:
+        return {GL_R8, GL_RED, GL_UNSIGNED_BYTE, 1, 1};
     case Format::r16f:
         return {GL_R16F, GL_RED, GL_HALF_FLOAT, 1, 2};
     case Format::r32f:
         return {GL_R32F, GL_RED, GL_FLOAT, 1, 4};
+    case Format::rg16f:
+        return {GL_RG16F, GL_RG, GL_HALF_FLOAT, 2, 4};
+    case Format::rg32f:
+        return {GL_RG32F, GL_RG, GL_FLOAT, 2, 8};
+    case Format::rgba8:
+        return {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 4};
     case Format::srgb8:
         return {GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4, 4};
     case Format::rgba16f:
@@ -41,6 +52,30 @@ void setParameter(const Texture& texture, GLenum name, GLint value) {
 } // namespace
 
 int channelsOf(Format format) { return layoutOf(format).channels; }
+
+const char* glslName(Format format) {
+    switch (format) {
+    case Format::r8:
+        return "r8";
+    case Format::r16f:
+        return "r16f";
+    case Format::r32f:
+        return "r32f";
+    case Format::rg16f:
+        return "rg16f";
+    case Format::rg32f:
+        return "rg32f";
+    case Format::rgba8:
+        return "rgba8";
+    case Format::rgba16f:
+        return "rgba16f";
+    case Format::rgba32f:
+        return "rgba32f";
+    default:
+        assert(false && "images have no such format");
+        return "";
+    }
+}
 
 Texture targetTexture(int width, int height, Format format, const std::string& label) {
     Texture texture(GL_TEXTURE_2D);
@@ -127,7 +162,13 @@ Target::Target(int width, int height, std::span<const Format> colours, bool dept
       framebuffer_(GL_NONE) {
     std::vector<GLenum> attachments;
     for (const Format format : formats_) {
-        attachments.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours_.size()));
+        attachments.push_back(format == Format::none
+                                  ? GL_NONE
+                                  : GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(colours_.size()));
+        if (format == Format::none) {
+            colours_.emplace_back();
+            continue;
+        }
         colours_.push_back(targetTexture(width, height, format, label));
         glNamedFramebufferTexture(framebuffer_.name(), attachments.back(), colours_.back().name(),
                                   0);
@@ -158,5 +199,61 @@ void Target::clear(int colour, std::array<float, 4> value) const {
 void Target::clearDepth(float value) const {
     glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &value);
 }
+
+SlicedTarget::SlicedTarget(int width, int height, Format format, Slices slices,
+                           const std::string& label)
+    : width_(width), height_(height), format_(format), slices_(slices),
+      texture_(slices.layers > 1 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D), framebuffer_(GL_NONE) {
+    slices_.levels =
+        std::min(slices.levels,
+                 static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(width, height)))));
+    const GLenum internal = layoutOf(format).internal;
+    if (slices.layers > 1)
+        glTextureStorage3D(texture_.name(), slices_.levels, internal, width, height, slices.layers);
+    else
+        glTextureStorage2D(texture_.name(), slices_.levels, internal, width, height);
+    glObjectLabel(GL_TEXTURE, texture_.name(), -1, label.c_str());
+    const bool mips = slices_.levels > 1;
+    setParameter(texture_, GL_TEXTURE_MIN_FILTER,
+                 slices.linear ? (mips ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR)
+                               : (mips ? GL_NEAREST_MIPMAP_NEAREST : GL_NEAREST));
+    setParameter(texture_, GL_TEXTURE_MAG_FILTER, slices.linear ? GL_LINEAR : GL_NEAREST);
+    setParameter(texture_, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    setParameter(texture_, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void SlicedTarget::bind(int level, int layer) const {
+    if (slices_.layers > 1)
+        glNamedFramebufferTextureLayer(framebuffer_.name(), GL_COLOR_ATTACHMENT0, texture_.name(),
+                                       level, layer);
+    else
+        glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, texture_.name(),
+                                  level);
+    if (level > 0) {
+        setParameter(texture_, GL_TEXTURE_BASE_LEVEL, level - 1);
+        setParameter(texture_, GL_TEXTURE_MAX_LEVEL, level - 1);
+    }
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.name());
+    glViewport(0, 0, width(level), height(level));
+    glEnable(GL_FRAMEBUFFER_SRGB);
+}
+
+void SlicedTarget::readAll() const {
+    setParameter(texture_, GL_TEXTURE_BASE_LEVEL, 0);
+    setParameter(texture_, GL_TEXTURE_MAX_LEVEL, slices_.levels - 1);
+}
+
+void SlicedTarget::clear() const {
+    constexpr GLfloat zero[4] = {};
+    glClearNamedFramebufferfv(framebuffer_.name(), GL_COLOR, 0, zero);
+}
+
+void SlicedTarget::bindImage(int unit) const {
+    glBindImageTexture(static_cast<GLuint>(unit), texture_.name(), 0, GL_FALSE, 0, GL_WRITE_ONLY,
+                       layoutOf(format_).internal);
+}
+
+int SlicedTarget::width(int level) const { return std::max(width_ >> level, 1); }
+int SlicedTarget::height(int level) const { return std::max(height_ >> level, 1); }
 
 } // namespace obscura::gl

@@ -11,12 +11,14 @@
 
 namespace obscura::gl {
 
-enum class Format { r16f, r32f, srgb8, rgba16f, rgba32f, depth32f };
+// `none` keeps a target's output location free of any texture.
+enum class Format { none, r8, r16f, r32f, rg16f, rg32f, rgba8, srgb8, rgba16f, rgba32f, depth32f };
 
 int channelsOf(Format format);
+const char* glslName(Format format); // as an image's layout qualifier: "r16f"
 
-// A texture of one level that shaders read by texelFetch or with nearest filtering, clamped at
-// the border; depth32f compares instead (sampler2DShadow) with linear filtering.
+// A texture that shaders read by texelFetch or with nearest filtering, clamped at the border;
+// depth32f compares instead (sampler2DShadow) with linear filtering.
 Texture targetTexture(int width, int height, Format format, const std::string& label);
 
 // A texture with mipmaps, trilinear and anisotropic filtering. `rgba` rows from first to last
@@ -55,6 +57,9 @@ class Target {
     int height() const { return height_; }
     const Texture& colour(int index) const { return colours_[static_cast<std::size_t>(index)]; }
     const Texture& depth() const { return depth_; }
+    bool has(int index) const { // a texture, not `none`
+        return index < count() && format(index) != Format::none;
+    }
     Format format(int index) const { return formats_[static_cast<std::size_t>(index)]; }
     int count() const { return static_cast<int>(colours_.size()); }
 
@@ -63,6 +68,38 @@ class Target {
     std::vector<Format> formats_;
     std::vector<Texture> colours_;
     Texture depth_;
+    Framebuffer framebuffer_;
+};
+
+// A texture of several levels (each half the size of the one before, rounded down, at least 1) and
+// layers, drawn into one slice at a time; with more than one layer it is an array texture. `linear`
+// filters when it is read by coordinate.
+struct Slices {
+    int levels = 1, layers = 1;
+    bool linear = false;
+};
+class SlicedTarget {
+  public:
+    SlicedTarget(int width, int height, Format format, Slices slices, const std::string& label);
+
+    // Draw into this slice, viewport to its size. Meanwhile shaders see the level before it as
+    // level 0, so that a level can be made from the one before; readAll() ends that.
+    void bind(int level, int layer) const;
+    void readAll() const;
+    void clear() const;             // the slice that is bound, to zero
+    void bindImage(int unit) const; // for a compute shader to write level 0
+
+    int width(int level = 0) const;
+    int height(int level = 0) const;
+    const Texture& texture() const { return texture_; }
+    Format format() const { return format_; }
+    const Slices& slices() const { return slices_; }
+
+  private:
+    int width_, height_;
+    Format format_;
+    Slices slices_;
+    Texture texture_;
     Framebuffer framebuffer_;
 };
 

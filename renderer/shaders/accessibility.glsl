@@ -6,5 +6,5 @@ float accessibility(float nearer) {
     if (nearer < settings.fullOcclusion || nearer > settings.noOcclusion)
         return 1.0;
     float scaled = nearer / settings.attenuation;
-    return pow(1.0 / (1.0 + scaled * scaled), settings.power);
+    return pow(1.0 / (1.0 + scaled * scaled), settings.accessibilityPower);
 }

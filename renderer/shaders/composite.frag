@@ -8,6 +8,8 @@ uniform float exposure; // factor
 uniform float white;    // luminance that becomes display white; 0: clamp, no curve
 uniform int hasDirect;
 uniform int occludeDirect;
+uniform int sendsLight; // visibilityBuffer's other channels are light to add
+uniform int guard;      // pixels that visibilityBuffer is wider on every side
 
 layout(location = 0) out vec4 displayOut;
 layout(location = 1) out vec4 linearOut;
@@ -22,9 +24,12 @@ vec3 displayCurve(vec3 colour) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float visibility =
-        texelFetch(visibilityBuffer, min(pixel, textureSize(visibilityBuffer, 0) - 1), 0).r;
+    vec4 occlusion =
+        texelFetch(visibilityBuffer, min(pixel + guard, textureSize(visibilityBuffer, 0) - 1), 0);
+    float visibility = occlusion.r;
     vec3 colour = texelFetch(ambientLight, pixel, 0).rgb * visibility;
+    if (sendsLight != 0)
+        colour = max(colour + occlusion.gba, vec3(0.0));
     if (hasDirect != 0)
         colour += texelFetch(directLight, pixel, 0).rgb * (occludeDirect != 0 ? visibility : 1.0);
     colour *= exposure;

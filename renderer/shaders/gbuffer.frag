@@ -3,12 +3,15 @@
 in vec3 viewNormal;
 in vec4 viewTangent;
 in vec2 materialUv;
-in float viewDepth;
+in vec3 viewPlace;
+
+uniform int faceNormals; // occlusion normals are the triangle's own
 
 // Targets as in the thesis' table 1, with more bits for the normal.
 layout(location = 0) out vec4 albedoOut; // alpha: specular intensity
 layout(location = 1) out float depthOut;
 layout(location = 2) out vec4 normalOut; // alpha: specular power
+layout(location = 3) out vec4 occlusionNormalOut;
 
 vec3 shadingNormal() {
     vec3 n = normalize(viewNormal);
@@ -19,6 +22,12 @@ vec3 shadingNormal() {
         n = normalize(mat3(t, cross(n, t) * viewTangent.w, n) * mapped);
     }
     return gl_FrontFacing ? n : -n;
+}
+
+// On the side that is seen.
+vec3 faceNormal() {
+    vec3 n = normalize(cross(dFdx(viewPlace), dFdy(viewPlace)));
+    return dot(n, viewPlace) > 0.0 ? -n : n;
 }
 
 void main() {
@@ -34,5 +43,7 @@ void main() {
     float luminance = dot(colour.rgb, vec3(0.2126, 0.7152, 0.0722));
     albedoOut = vec4(colour.rgb, mix(0.04, luminance, metallic));
     normalOut = vec4(shadingNormal(), clamp(2.0 / (alpha * alpha) - 2.0, 1.0, 2048.0));
-    depthOut = viewDepth;
+    vec3 smoothNormal = gl_FrontFacing ? normalize(viewNormal) : -normalize(viewNormal);
+    occlusionNormalOut = vec4(faceNormals != 0 ? faceNormal() : smoothNormal, 0.0);
+    depthOut = -viewPlace.z;
 }

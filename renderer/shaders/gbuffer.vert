@@ -9,7 +9,7 @@ invariant gl_Position;
 out vec3 viewNormal;
 out vec4 viewTangent;
 out vec2 materialUv;
-out float viewDepth;
+out vec3 viewPlace;
 
 void main() {
     vec4 viewPosition = frame.viewFromWorld * vec4(position, 1.0);
@@ -17,6 +17,6 @@ void main() {
     viewNormal = rotation * normal;
     viewTangent = vec4(rotation * tangent.xyz, tangent.w);
     materialUv = uv;
-    viewDepth = -viewPosition.z;
+    viewPlace = viewPosition.xyz;
     gl_Position = clipFromWorld * vec4(position, 1.0);
 }

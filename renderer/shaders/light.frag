@@ -1,4 +1,5 @@
 // The light that each surface sends to the camera, and the background where there is none.
+#include "environment.glsl"
 #include "view.glsl"
 
 layout(binding = 0) uniform sampler2D albedoBuffer;
@@ -11,7 +12,6 @@ uniform vec3 ambient; // radiance, the same from everywhere
 uniform vec3 background;
 #else
 layout(binding = 3) uniform sampler2D panorama;
-uniform vec3 irradiance[9]; // spherical harmonics, see renderer/light.h
 #endif
 
 #if !CONSTANT_AMBIENT || SUN
@@ -55,16 +55,6 @@ vec3 sunReflected(vec4 albedo, vec3 normal, float power, vec3 towardsEye, vec3 w
 #endif
 
 #if !CONSTANT_AMBIENT
-vec3 irradianceAt(vec3 n) {
-    vec3 sum = 0.282095 * irradiance[0] +
-               0.488603 * (n.y * irradiance[1] + n.z * irradiance[2] + n.x * irradiance[3]) +
-               1.092548 * (n.x * n.y * irradiance[4] + n.y * n.z * irradiance[5] +
-                           n.x * n.z * irradiance[7]) +
-               0.315392 * (3.0 * n.z * n.z - 1.0) * irradiance[6] +
-               0.546274 * (n.x * n.x - n.y * n.y) * irradiance[8];
-    return max(sum, vec3(0.0));
-}
-
 vec3 radianceFrom(vec3 direction) {
     float longitude = atan(direction.x, -direction.z), colatitude = acos(clamp(direction.y, -1.0, 1.0));
     return textureLod(panorama, vec2(longitude / 6.28318531 + 0.5, colatitude / 3.14159265), 0.0).rgb;

@@ -40,27 +40,44 @@ inline void addQuad(Scene& scene, std::array<glm::vec3, 4> corners) {
     scene.meshes[0].indexCount = static_cast<std::uint32_t>(scene.indices.size());
 }
 
+// Constant white light from everywhere, for techniques that read light.
+inline Level whiteLight() {
+    Level level;
+    level.ambient = Vec3{1, 1, 1};
+    return level;
+}
+
 // Visibility as a technique's passes leave it: 1 channel, top row first.
 inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settings& settings,
-                          int width, int height, std::uint64_t seed = 1) {
+                          int width, int height, std::uint64_t seed = 1,
+                          Normals kind = Normals::smooth) {
     const GpuScene gpuScene(scene);
-    const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed);
+    const int guard = guardPixels(settings, height);
+    const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
     const gl::UniformBuffer block = frameBuffer(frame);
     bindFrame(block);
-    const GBuffer gbuffer(width, height, settings.technique().normals);
+    const int fullWidth = width + 2 * guard, fullHeight = height + 2 * guard;
+    GBufferContent content;
+    if (settings.technique().reads & normals)
+        content.occlusionNormal = kind;
+    const GBuffer gbuffer(fullWidth, fullHeight, content);
     GBufferPass().draw(gpuScene, frame, gbuffer);
-    const OcclusionPasses passes(settings, width, height);
-    const gl::Texture& texture = passes.visibility(gbuffer);
+    const Lighting lighting(whiteLight(), gpuScene, std::filesystem::path());
+    const LightBuffers light(fullWidth, fullHeight, false);
+    lighting.draw(gbuffer, light);
+    const OcclusionPasses passes(settings, fullWidth, fullHeight);
+    const gl::Texture& texture = passes.visibility({gbuffer, &light, &lighting, nullptr});
     Image image{width, height, 1, {}};
-    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (settings.technique().passes.empty()) {
-        image.pixels.assign(count, 1.0f);
+        image.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                            1.0f);
         return image;
     }
-    const std::vector<float> values = gl::readFloats(texture, width, height, gl::Format::r16f);
-    for (int y = height - 1; y >= 0; --y)
-        image.pixels.insert(image.pixels.end(), values.begin() + y * width,
-                            values.begin() + (y + 1) * width);
+    const std::vector<float> values =
+        gl::readFloats(texture, fullWidth, fullHeight, gl::Format::r32f);
+    for (int y = guard + height - 1; y >= guard; --y)
+        image.pixels.insert(image.pixels.end(), values.begin() + y * fullWidth + guard,
+                            values.begin() + y * fullWidth + guard + width);
     return image;
 }
 

@@ -182,8 +182,8 @@ TEST_F(Generate, LayersAreAddedOnRequest) {
     for (const char* layer : {"ao", "visibility", "linear", "albedo", "depth"})
         EXPECT_TRUE(manifest.pairs[0].a.layers.contains(layer)) << layer;
     // A constant light and a technique of depth alone: nobody asks for normals, so there are none.
-    EXPECT_FALSE(manifest.pairs[0].a.layers.contains("normal"));
-    EXPECT_TRUE(manifest.pairs[0].b.layers.contains("normal"));
+    EXPECT_FALSE(manifest.pairs[0].a.layers.contains("occlusion-normal"));
+    EXPECT_TRUE(manifest.pairs[0].b.layers.contains("occlusion-normal"));
 }
 
 TEST_F(Generate, AnInterruptedRunLeavesNothingHalfDone) {

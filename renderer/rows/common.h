@@ -1,0 +1,55 @@
+#pragma once
+
+#include "renderer/points.h"
+#include "renderer/technique.h"
+
+// Parts that rows of the technique table share (technique.h says what the common parameters do).
+namespace obscura::rows {
+
+using gl::Format;
+
+constexpr Parameter radius{"radius",
+                           Unit::metre,
+                           "how far occluders are looked for",
+                           0.5f,
+                           1e-4f,
+                           1e4f,
+                           "ours: the step of a stair; a study sets it for each scene"};
+
+constexpr Parameter radiusMultiplier(float value = 1, std::string_view source = "neutral") {
+    return {"radiusMultiplier",
+            Unit::ratio,
+            "factor on the radius, for methods of unlike reach to be matched by",
+            value,
+            0.05f,
+            20,
+            source};
+}
+
+constexpr Parameter intensity(float value = 1, std::string_view source = "neutral") {
+    return {"intensity", Unit::ratio, "factor on occlusion", value, 0, 100, source};
+}
+
+constexpr Parameter power(float value = 1, std::string_view source = "neutral") {
+    return {"power", Unit::ratio, "exponent of visibility", value, 0.01f, 64, source};
+}
+
+constexpr Parameter samples(float value, std::string_view source,
+                            std::string_view meaning = "points tested per pixel") {
+    return {"samples", Unit::count, meaning, value, 1, 16384, source};
+}
+
+constexpr Parameter blur{"blur",
+                         Unit::flag,
+                         "edge-aware blur over the 4 x 4 noise tile",
+                         1,
+                         0,
+                         1,
+                         "Jakobsen 2010, section 4.3.1.1"};
+
+constexpr Pass gatherAndBlur[] = {
+    {.name = "gather", .format = Format::r16f},
+    {.name = "blurTile", .format = Format::r16f, .enabledBy = "blur"},
+};
+
+} // namespace obscura::rows
