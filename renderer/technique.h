@@ -130,7 +130,9 @@ constexpr bool wellFormed(const Technique& technique) {
     for (const Pass& pass : technique.passes)
         if (!wellFormed(pass, technique.parameters))
             return false;
-    return !technique.id.empty() && !technique.title.empty() && !technique.citation.empty();
+    // Five samplers are inputs, and a shader has sixteen.
+    return technique.passes.size() <= 11 && !technique.id.empty() && !technique.title.empty() &&
+           !technique.citation.empty();
 }
 
 constexpr bool wellFormed(std::span<const Technique> table) {
