@@ -6,6 +6,8 @@
 
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -20,20 +22,27 @@ enum class Integral {
     falloff  // 1/pi  int min(t/R, 1) (n.w) dw: 1 - t/R of an occluder counts
 };
 
+// "cosine", "uniform", "falloff", in the order of the enumeration.
+const std::vector<std::string>& integralNames();
+
 struct TraceSettings {
     Integral integral = Integral::cosine;
     double radius = 0.5; // R, metres
-    int rays = 256;      // per pixel
+    int rays = 256;      // per pixel; rounded up to a power of two, at least 2
     std::uint64_t seed = 1;
+    int threads = 0; // 0: all cores. The result does not depend on it
 };
 
 // Rows from top to bottom; empty pixels are open.
 struct Reference {
     Image visibility; // 1 channel
-    Image error;      // 1 channel: standard error of visibility
+    Image error;      // 1 channel: standard error of visibility (reference.cpp says how)
     Image bentNormal; // 3 channels: mean unblocked direction, unit, view space; the normal where
                       // everything is blocked
 };
+
+// Changes when the same surfaces and settings give other numbers.
+std::string rayTracerVersion();
 
 // Called now and then with the share done, 0 ... 1, from the calling thread.
 using TraceProgress = std::function<void(double)>;
