@@ -36,7 +36,7 @@ int rays(RayOptions& options) {
     const std::vector<std::string>& names = integralNames();
     options.settings.integral = static_cast<Integral>(
         std::find(names.begin(), names.end(), options.integral) - names.begin());
-    const std::vector<std::string> builtins = builtinSceneNames();
+    const auto builtins = builtinSceneNames();
     const bool builtin =
         std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
     const Scene scene =
