@@ -22,16 +22,16 @@ class RayPackets {
     RayPackets(const Surfaces& surfaces, const TraceSettings& settings);
 
     template <typename T>
-    using Lanes = std::array<T, packetSize>;
+    struct alignas(64) Lanes : std::array<T, packetSize> {}; // aligned as Embree wants it
 
     // Sixteen pixels that show surfaces; the last group may have fewer.
     struct Group {
         int size = 0;
         Lanes<std::size_t> pixel; // index into the surfaces
-        alignas(64) Lanes<float> origin[3], begin;
+        Lanes<float> origin[3], begin;
         // World space: columns of the basis around the normal; in that basis, the face normal.
-        alignas(64) Lanes<float> across[3], up[3], normal[3], face[3];
-        alignas(64) Lanes<std::uint32_t> digits[2][2]; // seeds by scrambling and dimension
+        Lanes<float> across[3], up[3], normal[3], face[3];
+        Lanes<std::uint32_t> digits[2][2]; // seeds by scrambling and dimension
         std::uint32_t leading[2][2];
         Lanes<int> valid; // -1 for the lanes in use
     };
@@ -44,8 +44,8 @@ class RayPackets {
     // One packet's rays, and what they were made from.
     struct Packet {
         RTCRayHit16 rays;
-        alignas(64) Lanes<float> local[3]; // direction in the basis
-        alignas(64) Lanes<int> valid;      // -1: to trace; 0: below the face, or not in use
+        Lanes<float> local[3]; // direction in the basis
+        Lanes<int> valid;      // -1: to trace; 0: below the face, or not in use
         int cell;
     };
     // Of point 0 ... cells() - 1 in an order in which successive packets are neighbours.

@@ -34,8 +34,8 @@ using Lanes = RayPackets::Lanes<T>;
 
 // What sixteen pixels have gathered.
 struct Sums {
-    alignas(64) Lanes<float> visibility{}, squares{}; // of pairs' differences
-    alignas(64) Lanes<float> direction[3]{};
+    Lanes<float> visibility{}, squares{}; // of pairs' differences
+    Lanes<float> direction[3]{};
 };
 
 class Tracer {
