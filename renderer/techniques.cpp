@@ -1,5 +1,6 @@
 #include "protocols/error.h"
 #include "renderer/rows/aalborg.h"
+#include "renderer/rows/obscurance.h"
 
 #include <fmt/format.h>
 
@@ -15,6 +16,10 @@ constexpr Technique table[] = {
     rows::blizzard,
     rows::blizzardCorrected,
     rows::rayMarch,
+    rows::alchemy,
+    rows::alchemyFormOne,
+    rows::alchemyCs562,
+    rows::sao,
 };
 static_assert(wellFormed(table));
 

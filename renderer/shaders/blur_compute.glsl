@@ -1,0 +1,55 @@
+// The separable cross-bilateral blur of the CS562 report (Kim 2022), down the columns, then along
+// the rows. Each group of 128 pixels of a line first loads what it and its neighbours within the
+// kernel's radius hold into shared memory, so that every value is fetched once per line instead of
+// once per tap.
+//
+// Weight of pixel i for a pixel with normal N and depth d, renormalised over the kernel:
+//     Gaussian(distance in pixels) x max(0, N_i . N) x exp(-(d_i - d)^2 / 2 s).
+// Departures: depth is in radii, which for the report's radius of 1 is the same, so that s need not
+// know the scene's size; the report names no width for the Gaussian, here half the kernel's radius;
+// pixels that show no surface or lie beyond the border have no weight.
+
+#include "blur_normal.glsl"
+
+const int group = 128, widest = 32; // pixels; largest blurRadius (rows/obscurance.h)
+
+shared float lineVisibility[group + 2 * widest];
+shared float lineDepth[group + 2 * widest];
+shared vec3 lineNormal[group + 2 * widest];
+
+void load(sampler2D values, int slot, ivec2 pixel) {
+    bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(values, 0)));
+    lineDepth[slot] = outside ? frame.depth.y : depthOf(pixel);
+    lineNormal[slot] = outside ? vec3(0.0) : normalOf(pixel);
+    lineVisibility[slot] = outside ? 1.0 : texelFetch(values, pixel, 0).r;
+}
+
+vec4 blurLine(sampler2D values, ivec2 pixel, ivec2 along) {
+    int radius = int(settings.blurRadius), own = int(gl_LocalInvocationIndex);
+    // Slot 0 is the pixel `radius` before the group's first. Invocations beyond the border load
+    // too: their neighbours before it are others' neighbours.
+    for (int slot = own; slot < group + 2 * radius; slot += group)
+        load(values, slot, pixel + along * (slot - own - radius));
+    barrier();
+
+    int centre = own + radius;
+    float depth = lineDepth[centre];
+    if (isEmpty(depth))
+        return vec4(1.0);
+    float sum = 0.0, weights = 0.0;
+    for (int i = -radius; i <= radius; ++i) {
+        float other = lineDepth[centre + i];
+        if (isEmpty(other))
+            continue;
+        float apart = (other - depth) / settings.radius, steps = 2.0 * float(i) / float(radius);
+        float weight = exp(-0.5 * (steps * steps + apart * apart / settings.depthVariance)) *
+                       max(dot(lineNormal[centre + i], lineNormal[centre]), 0.0);
+        sum += weight * lineVisibility[centre + i];
+        weights += weight;
+    }
+    return vec4(weights > 0.0 ? sum / weights : lineVisibility[centre]);
+}
+
+vec4 blurColumns(ivec2 pixel) { return blurLine(gatherResult, pixel, ivec2(0, 1)); }
+
+vec4 blurRows(ivec2 pixel) { return blurLine(blurColumnsResult, pixel, ivec2(1, 0)); }
