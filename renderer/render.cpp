@@ -259,12 +259,13 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                     result.layers[names[c]] = layerOf(gbuffer.target(), c);
         }
         clock.mark(times_.hash);
+        std::optional<gl::UniformBuffer> wideBlock; // occlusion reads it too
         if (padded) {
             const Frame wide =
                 makeFrame(recipe.view.camera, recipe.width, recipe.height, stage_->scene->bounds(),
                           recipe.seed, jitterOf(i, recipe.antialiasing), guard);
-            const gl::UniformBuffer wideBlock = frameBuffer(wide);
-            bindFrame(wideBlock);
+            wideBlock.emplace(frameBuffer(wide));
+            bindFrame(*wideBlock);
             stage_->gbufferPass.draw(*stage_->scene, wide, *padded);
         }
         const gl::Texture& visibility =
