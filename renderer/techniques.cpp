@@ -1,6 +1,7 @@
 #include "protocols/error.h"
 #include "renderer/rows/aalborg.h"
 #include "renderer/rows/obscurance.h"
+#include "renderer/rows/horizon.h"
 
 #include <fmt/format.h>
 
@@ -20,6 +21,10 @@ constexpr Technique table[] = {
     rows::alchemyFormOne,
     rows::alchemyCs562,
     rows::sao,
+    rows::hbao,
+    rows::hbaoDeinterleaved,
+    rows::hbaoPlus,
+    rows::multiScale,
 };
 static_assert(wellFormed(table));
 

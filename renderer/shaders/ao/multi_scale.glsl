@@ -1,0 +1,72 @@
+// HBAO at two scales and two resolutions, after Bavoil and Sainz 2009 ("Multi-layer dual-resolution
+// screen-space ambient occlusion", SIGGRAPH talk; one depth layer only): the whole radius at half
+// resolution, where taps are spread thin and thin things are missed, and a part of it at full
+// resolution, for the detail so lost; the former is brought to full size across no edge of depth.
+//
+// Departures. Of the talk only the abstract could be read. Programs that follow it cite it for
+// judging by the largest minus the smallest half-resolution value where full resolution is worth
+// while (Microsoft's D3D12 ray-traced AO sample), so there both resolutions share one radius and
+// the full one replaces the half one. Here every pixel has both, and the darker wins: each scale
+// sees some of the occluders of one hemisphere, so none is counted twice, and the result is never
+// lighter than the darker scale, as Hoang and Low 2012 (MSSAO) ask. `multiply` multiplies the
+// two instead, as programs do that stack two SSAO effects (pmndrs' postprocessing).
+//
+// Limit: hbao's with the whole radius, for there the small radius finds nothing that the large one
+// does not weigh at least as much. With `multiply`, visibility at R times that at detailRadius R.
+
+#include "blur_gaussian.glsl"
+#include "horizon.glsl"
+#include "taps_full.glsl"
+
+// A pixel of the half-resolution image stands for the first of the four it covers.
+vec4 coarse(ivec2 pixel) {
+    float depth = depthOf(2 * pixel);
+    if (isEmpty(depth))
+        return vec4(1.0);
+    return vec4(1.0 - horizonOcclusion(2 * pixel, pixel, depth, settings.radius, 2));
+}
+
+vec4 coarseAcross(ivec2 pixel) { return blurAlong(coarseResult, pixel, ivec2(1, 0), 2); }
+vec4 coarseDown(ivec2 pixel) { return blurAlong(coarseAcrossResult, pixel, ivec2(0, 1), 2); }
+
+vec4 detail(ivec2 pixel) {
+    float depth = depthOf(pixel);
+    if (isEmpty(depth))
+        return vec4(1.0);
+    float radius = settings.detailRadius * settings.radius;
+    return vec4(1.0 - horizonOcclusion(pixel, pixel, depth, radius, 1));
+}
+
+vec4 detailAcross(ivec2 pixel) { return blurAlong(detailResult, pixel, ivec2(1, 0), 1); }
+vec4 detailDown(ivec2 pixel) { return blurAlong(detailAcrossResult, pixel, ivec2(0, 1), 1); }
+
+// Joint bilateral upsampling: the one, two or four half-resolution pixels around, those on the
+// pixel's own surface. Where none is, the small rest of each weight leaves their mean.
+float upsampledCoarse(ivec2 pixel, float depth, bool blurred) {
+    vec2 slope = depthSlope(pixel, depth);
+    ivec2 odd = pixel & 1;
+    float sum = 0.0, weights = 0.0;
+    for (int y = 0; y <= odd.y; ++y)
+        for (int x = 0; x <= odd.x; ++x) {
+            ivec2 cell = (pixel >> 1) + ivec2(x, y);
+            if (any(greaterThanEqual(2 * cell, ivec2(frame.size.xy))))
+                continue;
+            float weight = 1e-3 + depthWeight(depth, slope, 2 * cell - pixel, depthOf(2 * cell));
+            float value = blurred ? texelFetch(coarseDownResult, cell, 0).r
+                                  : texelFetch(coarseResult, cell, 0).r;
+            sum += weight * value;
+            weights += weight;
+        }
+    return sum / weights;
+}
+
+vec4 combine(ivec2 pixel) {
+    float depth = depthOf(pixel);
+    if (isEmpty(depth))
+        return vec4(1.0);
+    bool blurred = settings.blur > 0.5;
+    float large = upsampledCoarse(pixel, depth, blurred);
+    float small = blurred ? texelFetch(detailDownResult, pixel, 0).r
+                          : texelFetch(detailResult, pixel, 0).r;
+    return vec4(settings.multiply > 0.5 ? max(large, 0.0) * max(small, 0.0) : min(large, small));
+}
