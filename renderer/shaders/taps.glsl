@@ -45,11 +45,15 @@ vec2 lineDirection(Lines lines, int i) {
     return vec2(cos(angle), sin(angle));
 }
 
-// The surface at a step of a line; false where there is none.
-bool tapSurface(Lines lines, vec2 direction, int i, out vec3 position) {
+// The pixel of a step, rounded to the lattice.
+ivec2 tapPixel(Lines lines, vec2 direction, int i) {
     float along = 1.0 + (float(i) + lines.jitter) * lines.spacing;
-    ivec2 pixel = lines.pixel + lines.stride * ivec2(round(along * direction));
-    float depth = clampedTapDepth(pixel, lines.stride);
+    return lines.pixel + lines.stride * ivec2(round(along * direction));
+}
+
+// The surface there; false where there is none.
+bool tapSurface(ivec2 pixel, int stride, out vec3 position) {
+    float depth = clampedTapDepth(pixel, stride);
     position = viewPosition(uvOf(pixel), depth);
     return !isEmpty(depth);
 }

@@ -31,7 +31,7 @@ vec4 shade(ivec2 pixel, int layer) {
         vec2 direction = lineDirection(lines, i);
         for (int step = 0; step < lines.steps; ++step) {
             vec3 surface;
-            if (!tapSurface(lines, direction, step, surface))
+            if (!tapSurface(tapPixel(lines, direction, step), 4, surface))
                 continue;
             vec3 to = surface - position;
             float squared = dot(to, to);
