@@ -13,18 +13,18 @@ namespace {
 
 constexpr Technique table[] = {
     {"none", "No ambient occlusion", "the control condition", depthOnly, nullptr, {}, {}},
-    rows::crytek,
-    rows::blizzard,
-    rows::blizzardCorrected,
-    rows::rayMarch,
-    rows::alchemy,
-    rows::alchemyFormOne,
-    rows::alchemyCs562,
-    rows::sao,
-    rows::hbao,
-    rows::hbaoDeinterleaved,
-    rows::hbaoPlus,
-    rows::multiScale,
+    rows::aalborg::crytek,
+    rows::aalborg::blizzard,
+    rows::aalborg::blizzardCorrected,
+    rows::aalborg::rayMarch,
+    rows::obscurance::alchemy,
+    rows::obscurance::alchemyFormOne,
+    rows::obscurance::alchemyCs562,
+    rows::obscurance::sao,
+    rows::horizon::hbao,
+    rows::horizon::hbaoDeinterleaved,
+    rows::horizon::hbaoPlus,
+    rows::horizon::multiScale,
 };
 static_assert(wellFormed(table));
 

@@ -3,7 +3,7 @@
 #include "renderer/rows/common.h"
 
 // The three techniques of Jakobsen 2010 (Aalborg), and the corrected form of one of them.
-namespace obscura::rows {
+namespace obscura::rows::aalborg {
 
 constexpr Parameter crytekParameters[] = {
     samples(24, "Jakobsen 2010, section 5.3", "points tested per pixel; whole cubes of eight"),
@@ -117,4 +117,4 @@ constexpr Technique rayMarch{
     normals,      ballPoints,          rayMarchParameters,
     gatherAndBlur};
 
-} // namespace obscura::rows
+} // namespace obscura::rows::aalborg

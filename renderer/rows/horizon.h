@@ -4,7 +4,7 @@
 
 // Horizon-based ambient occlusion and what its authors made of it. One estimator and one set of
 // defaults, so that the rows differ only in what their names say.
-namespace obscura::rows {
+namespace obscura::rows::horizon {
 
 constexpr std::string_view glSsao = "nvpro-samples gl_ssao";
 
@@ -164,4 +164,4 @@ constexpr Technique multiScale{
     multiScaleParameters,
     multiScalePasses};
 
-} // namespace obscura::rows
+} // namespace obscura::rows::horizon

@@ -4,7 +4,7 @@
 
 // Obscurance from surface points on a disc that faces the camera: Alchemy, a student's version of
 // it with a compute-shader blur, and its scalable successor.
-namespace obscura::rows {
+namespace obscura::rows::obscurance {
 
 constexpr std::string_view alchemyPaper = "McGuire et al. 2011, section 3";
 
@@ -167,4 +167,4 @@ constexpr Technique sao{"sao",
                         saoParameters,
                         saoPasses};
 
-} // namespace obscura::rows
+} // namespace obscura::rows::obscurance

@@ -106,6 +106,25 @@ TEST_P(EveryTechnique, SceneCameraAndRadiusScaleTogether) {
     }
 }
 
+// The plane's own occlusion at its centre column, when it is seen `degrees` from face-on.
+double planeOcclusion(const Settings& settings, double degrees) {
+    const double angle = degrees * M_PI / 180;
+    const glm::vec3 along(1, 0, 0), up(0, std::cos(angle), -std::sin(angle));
+    Scene scene;
+    addQuad(scene, {-50.0f * along - 50.0f * up, 50.0f * along - 50.0f * up,
+                    50.0f * along + 50.0f * up, -50.0f * along + 50.0f * up});
+    Camera camera;
+    camera.position = {0, 0, 5};
+    camera.fovDegrees = 30;
+    return 1 - meanOf(visibilityOf(scene, camera, settings, 64, 64));
+}
+
+TEST_P(EveryTechnique, APlaneStaysOpenAtEveryTilt) {
+    for (const double degrees : {0, 20, 40, 60, 70, 80})
+        std::printf("TILT %s %g %.4f\n", GetParam().c_str(), degrees,
+                    planeOcclusion(defaults(), degrees));
+}
+
 TEST_P(EveryTechnique, TheSameSeedGivesTheSameBytes) {
     EXPECT_EQ(picture(defaults()).pixels, picture(defaults()).pixels);
 }
