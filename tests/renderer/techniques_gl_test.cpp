@@ -119,10 +119,26 @@ double planeOcclusion(const Settings& settings, double degrees) {
     return 1 - meanOf(visibilityOf(scene, camera, settings, 64, 64));
 }
 
+// What a plane reads, and how far from it a tilt may take it, where that is not "open, to 0.03".
+struct Plane {
+    const char* id;
+    double occlusion, tolerance;
+    const char* reason;
+};
+constexpr Plane unusualPlanes[] = {
+    {"crytek", 0.25, 0.08, "half of its ball lies below any plane; less where steps are grazing"},
+    {"blizzard", 0, 0.12, "as printed, a tap's depth is compared with the pixel's, not the tap's"},
+    {"ray_march", 0, 0.05, "the same curve as blizzard"},
+};
+
 TEST_P(EveryTechnique, APlaneStaysOpenAtEveryTilt) {
+    Plane plane{"", 0, 0.03, ""};
+    for (const Plane& unusual : unusualPlanes)
+        if (row().id == unusual.id)
+            plane = unusual;
     for (const double degrees : {0, 20, 40, 60, 70, 80})
-        std::printf("TILT %s %g %.4f\n", GetParam().c_str(), degrees,
-                    planeOcclusion(defaults(), degrees));
+        EXPECT_NEAR(planeOcclusion(defaults(), degrees), plane.occlusion, plane.tolerance)
+            << degrees << " degrees; " << plane.reason;
 }
 
 TEST_P(EveryTechnique, TheSameSeedGivesTheSameBytes) {
