@@ -111,6 +111,26 @@ Image8 readImage8(std::span<const std::byte> encoded, const std::string& name, i
     return read<Image8>(OIIO::ImageInput::open(name, nullptr, &memory).get(), name, channels);
 }
 
+Image readExr(const std::filesystem::path& path, std::span<const std::string> channelNames) {
+    const auto input = OIIO::ImageInput::open(path.string());
+    const Image all = read<Image>(input.get(), path.string(), 0);
+    const std::vector<std::string>& found = input->spec().channelnames;
+    std::vector<std::size_t> order;
+    for (const std::string& name : channelNames) {
+        const auto place = std::find(found.begin(), found.end(), name);
+        if (place == found.end())
+            throw Error(
+                {path.string(), 0, 0, {}},
+                fmt::format("expected a channel \"{}\", found {}", name, fmt::join(found, ", ")));
+        order.push_back(static_cast<std::size_t>(place - found.begin()));
+    }
+    Image image{all.width, all.height, static_cast<int>(order.size()), {}};
+    for (std::size_t i = 0; i < all.pixels.size(); i += found.size())
+        for (const std::size_t c : order)
+            image.pixels.push_back(all.pixels[i + c]);
+    return image;
+}
+
 void writePng(const std::filesystem::path& path, const Image8& image) {
     OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");

@@ -47,6 +47,9 @@ Image readImage(const std::filesystem::path& path, int channels = 0);
 // The same from an encoded file in memory; `name` is for errors and picks the format.
 Image8 readImage8(std::span<const std::byte> encoded, const std::string& name, int channels = 0);
 
+// The named channels of an EXR file, in this order; a missing one is an Error.
+Image readExr(const std::filesystem::path& path, std::span<const std::string> channelNames);
+
 // PNG (8-bit, marked sRGB) and EXR (half or, when `depth32`, float). Written aside, then renamed.
 // `channelNames` ("R", "G", "B" or "V") has as many names as the image has channels.
 void writePng(const std::filesystem::path& path, const Image8& image);

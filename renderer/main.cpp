@@ -1,5 +1,6 @@
-#include "protocols/files.h"
+#include "protocols/progress.h"
 #include "renderer/builtin.h"
+#include "renderer/reference_cache.h"
 #include "renderer/render.h"
 
 #include <CLI/CLI.hpp>
@@ -26,6 +27,9 @@ struct Options {
     fs::path protocol;
     std::string condition;
     int member = 0;
+    fs::path reference, cache;
+    std::string integral = "cosine";
+    int rays = 256;
 };
 
 int printDevices() {
@@ -160,13 +164,16 @@ void writeLayers(const fs::path& out, const Rendering& rendering) {
                  std::span(names).first(static_cast<std::size_t>(image.channels)), kind == "depth");
 }
 
+Recipe recipeOf(const Options& options, SceneHashes& scenes, const gl::Driver& driver) {
+    return options.protocol.empty() ? recipeOfOptions(options, scenes, driver)
+                                    : recipeOfProtocol(options, scenes, driver);
+}
+
 int render(const Options& options) {
     const gl::Context context(options.device);
     const Folders folders{options.scenes, options.protocol.parent_path()};
     SceneHashes scenes(folders);
-    const Recipe recipe = options.protocol.empty()
-                              ? recipeOfOptions(options, scenes, context.driver())
-                              : recipeOfProtocol(options, scenes, context.driver());
+    const Recipe recipe = recipeOf(options, scenes, context.driver());
     RecipeRenderer renderer(folders);
     const Rendering rendering = renderer.render(recipe, options.layers);
     for (const std::string& warning : renderer.sceneWarnings())
@@ -182,6 +189,44 @@ int render(const Options& options) {
                "{:.2f}, occlusion {:.2f}, composite {:.2f}, hash {:.2f}\n",
                options.out.string(), ao.string(), rendering.meanOcclusion, t.scene, t.gbuffer,
                t.light, t.occlusion, t.composite, t.hash);
+    return 0;
+}
+
+// The ray-traced truth of one view: EXR, and its visibility as PNG beside it.
+int traceReference(const Options& options) {
+    const gl::Context context(options.device);
+    const Folders folders{options.scenes, options.protocol.parent_path()};
+    SceneHashes scenes(folders);
+    const Recipe recipe = recipeOf(options, scenes, context.driver());
+    const auto& names = integralNames();
+    ReferenceInputs inputs{recipe.sceneSha256,
+                           recipe.view.camera,
+                           recipe.width,
+                           recipe.height,
+                           {0, 0},
+                           recipe.normals,
+                           {}};
+    inputs.settings.integral = static_cast<Integral>(
+        std::find(names.begin(), names.end(), options.integral) - names.begin());
+    inputs.settings.radius = recipe.view.radius;
+    inputs.settings.rays = options.rays;
+    inputs.settings.seed = recipe.seed;
+    const fs::path cache = options.cache.empty() ? defaultCache() : options.cache;
+    bool kept = true;
+    const Reference reference = cachedReference(cache, referenceKey(inputs), [&] {
+        kept = false;
+        const Scene scene = loadSceneOf(recipe.view, folders);
+        Progress progress("tracing rays", 1);
+        const Reference traced = traceView(RayTracer(scene), GpuScene(scene), GBufferPass(), inputs,
+                                           [&](double share) { progress.update(share); });
+        progress.update(1);
+        return traced;
+    });
+    writeReference(options.reference, reference);
+    fs::path preview = options.reference;
+    writePng(preview.replace_extension(".png"), quantised(reference.visibility));
+    fmt::print("{} and {}{}\n", options.reference.string(), preview.string(),
+               kept ? fmt::format(": kept in {} since an earlier run", cache.string()) : "");
     return 0;
 }
 
@@ -222,6 +267,17 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag("--layers", options.layers,
                  "write linear EXR of image, visibility and G-buffer too");
+    app.add_option("--reference", options.reference,
+                   "instead of an image, trace its true visibility by rays: EXR of visibility, "
+                   "standard error and bent normal, and a PNG beside it");
+    app.add_option("--integral", options.integral, "of --reference")
+        ->check(CLI::IsMember(integralNames()))
+        ->capture_default_str();
+    app.add_option("--rays", options.rays, "of --reference, per pixel; a power of two")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    app.add_option("--cache", options.cache,
+                   "folder that keeps references; default OBSCURA_CACHE, else ~/.cache/obscura");
     CLI11_PARSE(app, argc, argv);
     if (options.devices)
         return printDevices();
@@ -229,7 +285,7 @@ int run(int argc, char** argv) {
         return printTechniques();
     if (!options.describe.empty())
         return printTechnique(options.describe);
-    return render(options);
+    return options.reference.empty() ? render(options) : traceReference(options);
 }
 
 } // namespace

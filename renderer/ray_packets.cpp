@@ -89,7 +89,8 @@ RayPackets::Group RayPackets::group(int index) const {
     const auto first = static_cast<std::size_t>(index) * packetSize;
     group.size = static_cast<int>(std::min<std::size_t>(packetSize, pixels_.size() - first));
     for (int scrambling = 0; scrambling < 2; ++scrambling) {
-        const std::uint64_t seed = mixed(settings_.seed + static_cast<std::uint64_t>(scrambling));
+        const std::uint64_t seed =
+            mixed(mixed(settings_.seed) + static_cast<std::uint64_t>(scrambling));
         const std::uint64_t shared = mixed(seed ^ mixed(~static_cast<std::uint64_t>(index)));
         group.leading[scrambling][0] = static_cast<std::uint32_t>(shared);
         group.leading[scrambling][1] = static_cast<std::uint32_t>(shared >> 32);

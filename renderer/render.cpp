@@ -5,6 +5,7 @@
 #include "renderer/ao.h"
 #include "renderer/builtin.h"
 #include "renderer/composite.h"
+#include "renderer/traced.h"
 
 #include <fmt/format.h>
 
@@ -15,11 +16,11 @@
 
 namespace obscura {
 
-namespace {
-
 Scene loadSceneOf(const View& view, const Folders& folders) {
     return view.file.empty() ? builtinScene(view.builtin) : loadScene(folders.scenes / view.file);
 }
+
+namespace {
 
 Settings settingsOf(const Recipe& recipe) {
     Settings settings(technique(recipe.technique));
@@ -128,6 +129,8 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
             hash.add(splatShader(settings).text());
     }
     hash.add(compositeShader().text());
+    if (settings.technique().reads & rays) // stands in for passes
+        hash.add(rayTracerVersion());
     return hash.hex();
 }
 
@@ -167,6 +170,7 @@ struct RecipeRenderer::Stage {
     std::string sceneSha256, lighting; // what is loaded; the latter as text
     std::optional<GpuScene> scene;
     std::optional<ProxySpheres> spheres; // once a technique has read them
+    std::optional<RayTracer> tracer;     // once a technique has traced rays
     std::optional<Lighting> light;
     GBufferPass gbufferPass;
 };
@@ -188,15 +192,24 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
                             "recipe was made; generate the stimuli again",
                             what, expected, found));
     };
-    if (stage_->sceneSha256 != recipe.sceneSha256) {
+    const bool changed = stage_->sceneSha256 != recipe.sceneSha256;
+    const bool traces = technique(recipe.technique).reads & rays;
+    if (changed) {
         stage_->light.reset();
+        stage_->tracer.reset();
         stage_->scene.reset();
+    }
+    if (changed || (traces && !stage_->tracer)) {
         const Scene scene = loadSceneOf(recipe.view, folders_);
         mustBe(fmt::format("scene \"{}\"", recipe.view.name), scene.sha256, recipe.sceneSha256);
-        warnings_ = scene.warnings;
-        stage_->scene.emplace(scene);
-        stage_->sceneSha256 = recipe.sceneSha256;
-        stage_->lighting.clear();
+        if (changed) {
+            warnings_ = scene.warnings;
+            stage_->scene.emplace(scene);
+            stage_->sceneSha256 = recipe.sceneSha256;
+            stage_->lighting.clear();
+        }
+        if (traces)
+            stage_->tracer.emplace(scene);
     }
     // The recipe's JSON is a canonical text of everything lighting depends on, and of more.
     Recipe lightingOnly;
@@ -268,9 +281,18 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
             bindFrame(*wideBlock);
             stage_->gbufferPass.draw(*stage_->scene, wide, *padded);
         }
+        // The seed is each frame's own, so that frames average the rays' noise too.
+        std::optional<gl::Texture> traced;
+        if (settings.technique().reads & rays)
+            traced = visibilityTexture(tracedVisibility(
+                *stage_->tracer,
+                surfacesOf(*stage_->scene, stage_->gbufferPass, frame, recipe.normals), settings,
+                recipe.seed + static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15u));
+        bindFrame(block);
         const gl::Texture& visibility =
-            occlusion.visibility({padded ? *padded : gbuffer, &light, &lighting,
-                                  stage_->spheres ? &*stage_->spheres : nullptr});
+            traced ? *traced
+                   : occlusion.visibility({padded ? *padded : gbuffer, &light, &lighting,
+                                           stage_->spheres ? &*stage_->spheres : nullptr});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard);
         clock.mark(times_.composite);

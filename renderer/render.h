@@ -3,6 +3,7 @@
 #include "protocols/manifest.h"
 #include "renderer/gl/context.h"
 #include "renderer/image.h"
+#include "renderer/scene.h"
 #include "renderer/settings.h"
 
 #include <filesystem>
@@ -17,6 +18,9 @@ struct Folders {
     std::filesystem::path scenes;   // glTF scenes
     std::filesystem::path protocol; // environment images
 };
+
+// The view's scene, built in or from its file.
+Scene loadSceneOf(const View& view, const Folders& folders);
 
 // The hashes of scenes, each looked up once: a study shows few scenes in many conditions.
 class SceneHashes {

@@ -125,6 +125,13 @@ Texture panoramaTexture(int width, int height, std::span<const float> rgb) {
     return texture;
 }
 
+Texture floatTexture(int width, int height, std::span<const float> values) {
+    Texture texture = targetTexture(width, height, Format::r32f, "values");
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RED, GL_FLOAT, values.data());
+    return texture;
+}
+
 Texture constantTexture(std::array<float, 4> value) {
     Texture texture = targetTexture(1, 1, Format::rgba32f, "constant");
     glTextureSubImage2D(texture.name(), 0, 0, 0, 1, 1, GL_RGBA, GL_FLOAT, value.data());

@@ -32,6 +32,9 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
 // Linear floats, 3 channels, filtered; repeats across, clamps at the top and bottom.
 Texture panoramaTexture(int width, int height, std::span<const float> rgb);
 
+// One channel, rows from the bottom, read as targetTexture's are.
+Texture floatTexture(int width, int height, std::span<const float> values);
+
 // A texture of one texel.
 Texture constantTexture(std::array<float, 4> value);
 

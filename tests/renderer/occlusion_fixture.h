@@ -4,6 +4,7 @@
 #include "renderer/gl/context.h"
 #include "renderer/image.h"
 #include "renderer/settings.h"
+#include "renderer/traced.h"
 
 #include <gtest/gtest.h>
 
@@ -56,6 +57,9 @@ inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settin
     const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
     const gl::UniformBuffer block = frameBuffer(frame);
     bindFrame(block);
+    if (settings.technique().reads & rays)
+        return tracedVisibility(RayTracer(scene), surfacesOf(gpuScene, GBufferPass(), frame, kind),
+                                settings, seed);
     const int fullWidth = width + 2 * guard, fullHeight = height + 2 * guard;
     GBufferContent content;
     if (settings.technique().reads & normals)
