@@ -124,6 +124,8 @@ constexpr Parameter saoParameters[] = {
      0.5f, "ours: McGuire et al. 2012 name none"},
     {"blur", Unit::flag, "two passes of seven taps, keyed on depth", 1, 0, 1,
      "McGuire et al. 2012, section 2.4"},
+    {"blurStep", Unit::count, "pixels from one tap of the blur to the next", 2, 1, 8,
+     "the authors' program"},
     {"edgeDepth", Unit::ratio, "depth difference, in radii, across which nothing blurs", 0.15f,
      1e-3f, 1e3f, saoProgram},
     radiusMultiplier(),
