@@ -1,5 +1,5 @@
-// The cross-bilateral blur of HBAO and HBAO+: a Gaussian along rows, then along columns, leaving out
-// pixels across an edge of depth. Its width is gl_ssao's and HBAO+'s; in place of their
+// The cross-bilateral blur of HBAO and HBAO+: a Gaussian along rows, then along columns, leaving
+// out pixels across an edge of depth. Its width is gl_ssao's and HBAO+'s; in place of their
 // exp2(-(sharpness dz)^2), whose sharpness is per scene unit, stands blur.glsl's depth weight,
 // which follows slopes and is the same at every scale.
 

@@ -14,9 +14,8 @@
 // - As published, elevation is measured against the camera's axis and not the pixel's line of
 //   sight; towards the corners of a wide image the solid angle is thus slightly wrong.
 
+#include "blur_normal.glsl"
 #include "taps.glsl"
-
-vec3 pixelNormal(ivec2 pixel) { return texelFetch(normalBuffer, pixel, 0).xyz; }
 
 // sin(t + bias) for a tangent vector.
 float biasedSine(vec3 tangent, vec2 biasCosSin) {
@@ -29,7 +28,7 @@ float biasedSine(vec3 tangent, vec2 biasCosSin) {
 float horizonOcclusion(ivec2 pixel, ivec2 tile, float depth, float radius, int stride) {
     Lines lines = linesFrom(pixel, tile, depth, radius, stride);
     vec3 position = viewPosition(uvOf(pixel), depth);
-    vec3 normal = pixelNormal(pixel);
+    vec3 normal = normalOf(pixel);
     // Normals of smooth shading may face away; the tangent plane then stands on edge.
     float facing = min(dot(normal, position), -1e-3 * length(position));
     float bias = radians(settings.angleBias);
@@ -52,8 +51,8 @@ float horizonOcclusion(ivec2 pixel, ivec2 tile, float depth, float radius, int s
             // From one pixel to the other, then along the line of sight onto the tangent plane.
             vec3 across = vec3((uvOf(tap) - uvOf(pixel)) * frame.viewFromUv.xy, 0.0);
             vec3 tangent = across - position * (dot(normal, across) / facing);
-            float rise = to.z * inversesqrt(max(dot(to, to), 1e-30)) -
-                         biasedSine(tangent, biasCosSin);
+            float rise =
+                to.z * inversesqrt(max(dot(to, to), 1e-30)) - biasedSine(tangent, biasCosSin);
             if (rise > horizon) {
                 // W = 1 - (t / R)^2 of each rise of the horizon (SDK 10: times an attenuation).
                 occlusion += (1.0 - settings.attenuation * squared) * (rise - horizon);

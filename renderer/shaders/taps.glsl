@@ -23,8 +23,8 @@ float clampedTapDepth(ivec2 pixel, int stride) {
 struct Lines {
     ivec2 pixel;
     int stride;
-    int steps;                    // 0: the radius is smaller than one step of the lattice
-    float spacing, jitter, turn;  // strides; share of a step; share of the angle between lines
+    int steps;                   // 0: the radius is smaller than one step of the lattice
+    float spacing, jitter, turn; // strides; share of a step; share of the angle between lines
 };
 
 // `tile` is the pixel's place in the noise tile. As in NVIDIA's samples, R is divided by one more

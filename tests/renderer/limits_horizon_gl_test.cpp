@@ -47,11 +47,12 @@ double plusLimit(Curb curb, double bias) {
 
 class HorizonLimits : public Limits, public testing::WithParamInterface<const char*> {
   protected:
-    // A tap in every pixel of 8 lines, which the noise tile turns, or in every one of the lattice that the row samples.
+    // A tap in every pixel of 11 lines, which the noise tile turns, or in every one of the lattice
+    // that the row samples.
     static Settings exhaustive(const char* id,
                                std::initializer_list<std::pair<const char*, double>> others) {
         Settings settings = neutral(id);
-        settings.set("directions", 8);
+        settings.set("directions", 11);
         settings.set("steps", 512);
         settings.set("screenReach", 100);
         settings.set("blur", 0);
@@ -95,9 +96,24 @@ TEST_P(HorizonLimits, TheBiasTakesItsSineOffTheHorizon) {
             << c.distance << " " << c.step;
 }
 
-// A 45-degree groove fills a quarter of the sphere on either side of its edge; a slope and a convex
-// edge see nothing above their tangents.
-TEST_P(HorizonLimits, InAGrooveAndOnSlopes) {
+// Of two stairs each counts with its own W, and the second only by what it adds to the horizon.
+TEST_P(HorizonLimits, TwoStairsRaiseTheHorizonTwice) {
+    const double near = 0.2, low = 0.1, far = 0.4, high = 0.5;
+    Scene scene;
+    addStrip(scene, -5, 0, 0.2f, 0);
+    addStrip(scene, 0.2f, 0.1f, 0.4f, 0.1f);
+    addStrip(scene, 0.4f, 0.5f, 5, 0.5f);
+    const double expected = lines([&](double cosine) {
+        const double first = std::pow(near / cosine, 2) + low * low;
+        const double second = std::pow(far / cosine, 2) + high * high;
+        const double sine = first < 1 ? low / std::sqrt(first) : 0;
+        const double more = second < 1 ? high / std::sqrt(second) - sine : 0;
+        return (1 - first) * sine + (1 - second) * std::max(more, 0.0);
+    });
+    EXPECT_NEAR(1 - centre(scene, exhaustive(GetParam(), {{"angleBias", 0}})), expected, 0.01);
+}
+
+TEST_P(HorizonLimits, SlopesAndConvexEdgesAreOpen) {
     const Settings settings = exhaustive(GetParam(), {{"angleBias", 0}, {"attenuation", 0}});
     Scene slope;
     addStrip(slope, -5, -5, 5, 5);
@@ -111,11 +127,13 @@ INSTANTIATE_TEST_SUITE_P(Table, HorizonLimits,
 
 using OneHorizon = HorizonLimits;
 
+// Its values are small, so is what is allowed; beside the nearest curb, five pixels of its lattice
+// away, half a lattice pixel more or less is most of the difference.
 TEST_F(OneHorizon, PlusBesideACurb) {
     for (const double bias : {0.0, 0.1})
         for (const Curb& c : curbs)
             EXPECT_NEAR(occlusion(c, exhaustive("hbao_plus", {{"bias", bias}})), plusLimit(c, bias),
-                        0.01)
+                        c.distance < 0.2f ? 0.01 : 0.002)
                 << c.distance << " " << c.step << " " << bias;
 }
 

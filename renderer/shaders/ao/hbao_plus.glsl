@@ -7,12 +7,13 @@
 // Left out: HBAO+'s second depth layer, its separate weights for the first and the further steps
 // (both 1 by default) and its radii for fore- and background, all off by default.
 //
-// Limit: taps are uniform in angle and in distance r in the image, so near ones weigh more per area:
-// 1 / 2 pi R integral over phi and 0 < r < R of the term above; for a curb seen from above
-// 1 / pi integral over 0 < phi < pi / 2, d / cos phi < r < R of
-// sat(h / sqrt(r^2 + h^2) - bias) sat(1 - (r^2 + h^2) / R^2), with R = 1.
+// Limit: taps are uniform in angle and in distance r in the image, so near ones weigh more per
+// area: 1 / 2 pi R times the integral over phi and 0 < r < R of the term above. For a curb seen
+// from above, distance d and step h, with R = 1: 1 / pi times the integral over 0 < phi < pi / 2
+// and d / cos phi < r < 1 of sat(h / sqrt(r^2 + h^2) - bias) sat(1 - r^2 - h^2).
 
 #include "blur_gaussian.glsl"
+#include "blur_normal.glsl"
 #include "taps_layered.glsl"
 
 vec4 shade(ivec2 pixel, int layer) {
@@ -23,7 +24,7 @@ vec4 shade(ivec2 pixel, int layer) {
     if (isEmpty(depth) || lines.steps == 0)
         return vec4(1.0);
     vec3 position = viewPosition(uvOf(full), depth);
-    vec3 normal = texelFetch(normalBuffer, full, 0).xyz;
+    vec3 normal = normalOf(full);
 
     float sum = 0.0;
     int directions = int(settings.directions);

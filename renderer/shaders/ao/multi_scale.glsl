@@ -40,10 +40,12 @@ vec4 detail(ivec2 pixel) {
 vec4 detailAcross(ivec2 pixel) { return blurAlong(detailResult, pixel, ivec2(1, 0), 1); }
 vec4 detailDown(ivec2 pixel) { return blurAlong(detailAcrossResult, pixel, ivec2(0, 1), 1); }
 
-// Joint bilateral upsampling: the one, two or four half-resolution pixels around, those on the
-// pixel's own surface. Where none is, the small rest of each weight leaves their mean.
+// Joint bilateral upsampling by depth and normal, for without the latter creases that face the eye
+// turn to stairs: of the one, two or four half-resolution pixels around, those on the pixel's own
+// surface. Where none is, the small rest of each weight leaves their mean.
 float upsampledCoarse(ivec2 pixel, float depth, bool blurred) {
     vec2 slope = depthSlope(pixel, depth);
+    vec3 normal = normalOf(pixel);
     ivec2 odd = pixel & 1;
     float sum = 0.0, weights = 0.0;
     for (int y = 0; y <= odd.y; ++y)
@@ -51,7 +53,9 @@ float upsampledCoarse(ivec2 pixel, float depth, bool blurred) {
             ivec2 cell = (pixel >> 1) + ivec2(x, y);
             if (any(greaterThanEqual(2 * cell, ivec2(frame.size.xy))))
                 continue;
-            float weight = 1e-3 + depthWeight(depth, slope, 2 * cell - pixel, depthOf(2 * cell));
+            float facing = smoothstep(0.6, 0.9, dot(normal, normalOf(2 * cell)));
+            float weight =
+                1e-3 + facing * depthWeight(depth, slope, 2 * cell - pixel, depthOf(2 * cell));
             float value = blurred ? texelFetch(coarseDownResult, cell, 0).r
                                   : texelFetch(coarseResult, cell, 0).r;
             sum += weight * value;
@@ -66,7 +70,7 @@ vec4 combine(ivec2 pixel) {
         return vec4(1.0);
     bool blurred = settings.blur > 0.5;
     float large = upsampledCoarse(pixel, depth, blurred);
-    float small = blurred ? texelFetch(detailDownResult, pixel, 0).r
-                          : texelFetch(detailResult, pixel, 0).r;
+    float small =
+        blurred ? texelFetch(detailDownResult, pixel, 0).r : texelFetch(detailResult, pixel, 0).r;
     return vec4(settings.multiply > 0.5 ? max(large, 0.0) * max(small, 0.0) : min(large, small));
 }
