@@ -5,20 +5,50 @@
 
 namespace obscura {
 
+namespace {
+
+// Coordinate `power` of point i of the R sequence with that root (Roberts 2018).
+double coordinate(double root, double power, int i) {
+    const double value = 0.5 + (i + 1) / std::pow(root, power);
+    return value - std::floor(value);
+}
+
+} // namespace
+
 std::vector<glm::vec4> ballPoints(const Settings& settings) {
     constexpr double root = 1.2207440846057596; // of x^4 = x + 1
     const int count = static_cast<int>(settings["samples"]);
     std::vector<glm::vec4> points;
     for (int i = 0; i < count; ++i) {
-        const auto coordinate = [&](double power) {
-            const double value = 0.5 + (i + 1) / std::pow(root, power);
-            return value - std::floor(value);
-        };
-        const double z = 2 * coordinate(1) - 1, angle = 2 * std::numbers::pi * coordinate(2);
-        const double length = std::cbrt(coordinate(3)), flat = std::sqrt(1 - z * z);
+        const double z = 2 * coordinate(root, 1, i) - 1;
+        const double angle = 2 * std::numbers::pi * coordinate(root, 2, i);
+        const double length = std::cbrt(coordinate(root, 3, i)), flat = std::sqrt(1 - z * z);
         points.emplace_back(length * flat * std::cos(angle), length * flat * std::sin(angle),
                             length * z, 0);
     }
+    return points;
+}
+
+std::vector<glm::vec4> boxKernel(const Settings& settings) {
+    constexpr double root = 1.1673039782614187; // of x^5 = x + 1
+    const int count = static_cast<int>(settings["samples"]);
+    std::vector<glm::vec4> points;
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 inBox(2 * coordinate(root, 1, i) - 1, 2 * coordinate(root, 2, i) - 1,
+                               coordinate(root, 3, i));
+        const double share = static_cast<double>(i) / count;
+        const double length = coordinate(root, 4, i) * (0.1 + 0.9 * share * share);
+        points.emplace_back(glm::normalize(inBox) * length, 0);
+    }
+    return points;
+}
+
+std::vector<glm::vec4> goldenDirections(const Settings& settings) {
+    const double turn = 2 * std::numbers::pi * (2 - std::numbers::phi);
+    const int count = static_cast<int>(settings["samples"]);
+    std::vector<glm::vec4> points;
+    for (int i = 0; i < count; ++i)
+        points.emplace_back(std::cos(i * turn), std::sin(i * turn), 0, 0);
     return points;
 }
 

@@ -85,7 +85,7 @@ TEST_P(EveryTechnique, AWallFaceOnReadsWhatItsPaperSays) {
                     glm::vec3(-50, 50, 0)});
     Camera camera;
     camera.position = {0, 0, 5};
-    const float expected = row().id == "crytek" ? 0.75f : 1.0f;
+    const float expected = row().id.substr(0, 6) == "crytek" ? 0.75f : 1.0f;
     for (const float value : visibilityOf(scene, camera, defaults(), 64, 64).pixels)
         ASSERT_NEAR(value, expected, 2e-3f);
 }

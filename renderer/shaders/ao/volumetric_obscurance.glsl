@@ -1,0 +1,45 @@
+// Volumetric obscurance by line samples (Loos and Sloan 2010): the open share of a ball around the
+// pixel, each tap giving the exact open length of one line through it. Depth and normals.
+//
+// A plane fills half of the ball. clipByNormal measures the other half alone; without it visibility
+// is doubled and cut at 1, which hides occlusion where the surface is convex.
+//
+// Departures: rays instead of parallel lines (ball.glsl); lines lie evenly on the disc and are
+// normalised by their own lengths, where the paper weights lines by their share of the volume;
+// taps outside the image are left out. Constant occupancy weight inside the ball, no falloff.
+//
+// Limit: on a plane 1. Beside an endless wall at c = d / R occlusion is (1 - c)^2 (2 + c) / 4 both
+// ways: the wall fills equal shares of the clipped half and, doubled, of the whole ball; beside
+// steps as volumetric_obscurance_points. In a groove whose sides rise at 45 degrees the whole ball
+// is three quarters full (visibility 1/2); clipping by a level normal gives 1/2 too.
+
+#include "ball.glsl"
+#include "blur_normal.glsl"
+
+vec4 gather(ivec2 pixel) {
+    float depth = depthOf(pixel);
+    if (isEmpty(depth))
+        return vec4(1.0);
+    bool clipped = settings.clipByNormal > 0.5;
+    vec3 position = viewPosition(uvOf(pixel), depth);
+    vec3 normal = normalOf(pixel);
+    Disc disc = discOf(position, settings.radius, pixel);
+
+    int count = int(settings.samples);
+    float open = 0.0, whole = 0.0;
+    for (int i = 0; i < count; ++i) {
+        vec2 uv = discUv(disc, i, count);
+        if (isOutside(uv))
+            continue;
+        ivec2 tap = pixelOf(uv);
+        vec2 chord = chordOf(uvOf(tap), position, settings.radius);
+        if (clipped)
+            chord = clippedChord(chord, uvOf(tap), position, normal);
+        open += openLength(chord, depthOf(tap));
+        whole += chord.y - chord.x;
+    }
+    float visibility = whole > 0.0 ? open / whole : 1.0;
+    return vec4(clipped ? visibility : min(2.0 * visibility, 1.0));
+}
+
+vec4 blurTile(ivec2 pixel) { return blurByDepthAndNormal(gatherResult, pixel); }

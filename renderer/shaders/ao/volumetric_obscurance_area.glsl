@@ -1,0 +1,94 @@
+// Volumetric obscurance by one area sample (Loos and Sloan 2010): mean and variance of the depths
+// that the ball covers, from a pyramid, and the open share of the ball they imply. Depth alone; no
+// noise, so no blur. Visibility is doubled, for a plane fills half of the ball.
+//
+// The paper's full text was not at hand, so the statistical model is ours. Depths are spread evenly
+// over mean -+ sqrt(3) deviations, as a slanted plane's are, and independent of the place in the
+// disc. Of a ball the share (1 + x)^2 (2 - x) / 4 lies nearer than x radii behind its centre;
+// its mean over that spread has a closed form.
+//
+// The pyramid holds mean and variance (not mean square: their difference would drown in rounding)
+// of 1 / depth, which is linear across a plane on screen and finite for the sky. To first order
+// depth is then (1 / here - 1 / there) here^2 behind the pixel.
+//
+// Limit (nothing to converge but the model): a plane is open at any slant. Where a share q of the
+// area lies h nearer, mean -q h, variance q (1 - q) h^2 go into the form above; the area is a
+// square of texels whose second moment equals the ball's, not the disc. A groove at 45 degrees is
+// about as open as its ball; behind thin near things the spread hides the rest: few halos, but
+// occlusion is lost beside every silhouette.
+
+#include "depth.glsl"
+
+vec4 moments(ivec2 pixel) {
+    float depth = depthOf(pixel);
+    return vec4(isEmpty(depth) ? 0.0 : 1.0 / depth, 0.0, 0.0, 0.0);
+}
+
+// Of parts with equal weight: the mean of means, and the mean variance plus that of the means. The
+// last texel of an odd row takes the one left over as well.
+vec4 momentsLevel(ivec2 pixel) {
+    ivec2 size = textureSize(momentsResult, 0), last = max(size / 2, ivec2(1)) - 1;
+    ivec2 begin = 2 * pixel;
+    ivec2 end = min(begin + 1 + ivec2(equal(pixel, last)), size - 1);
+    float count = float((end.x - begin.x + 1) * (end.y - begin.y + 1));
+    vec2 mean = vec2(0.0); // of means, of variances
+    for (int y = begin.y; y <= end.y; ++y)
+        for (int x = begin.x; x <= end.x; ++x)
+            mean += texelFetch(momentsResult, ivec2(x, y), 0).rg / count;
+    for (int y = begin.y; y <= end.y; ++y)
+        for (int x = begin.x; x <= end.x; ++x) {
+            float apart = texelFetch(momentsResult, ivec2(x, y), 0).r - mean.x;
+            mean.y += apart * apart / count;
+        }
+    return vec4(mean, 0.0, 0.0);
+}
+
+// Adds a level's four texels around a place (in pixels), bilinearly weighted. The sums are of
+// weight times difference to `here`, and times its square plus variance.
+vec2 sumsOf(vec2 place, int level, float here, float weight) {
+    ivec2 last = textureSize(momentsResult, level) - 1;
+    vec2 texel = place / float(1 << level) - 0.5;
+    vec2 part = fract(texel);
+    vec2 sums = vec2(0.0);
+    for (int corner = 0; corner < 4; ++corner) {
+        ivec2 step = ivec2(corner & 1, corner >> 1);
+        vec2 share = mix(1.0 - part, part, vec2(step));
+        ivec2 at = clamp(ivec2(floor(texel)) + step, ivec2(0), last);
+        vec2 found = texelFetch(momentsResult, at, level).rg;
+        float apart = found.r - here;
+        sums += share.x * share.y * vec2(apart, apart * apart + found.g);
+    }
+    return weight * sums;
+}
+
+// The integral of the ball's share up to x (radii), from far below.
+float integralOfShare(float x) {
+    float y = clamp(x, -1.0, 1.0);
+    return (0.75 + 2.0 * y + 1.5 * y * y - 0.25 * y * y * y * y) / 4.0 + max(x - 1.0, 0.0);
+}
+
+vec4 gather(ivec2 pixel) {
+    float depth = depthOf(pixel);
+    if (isEmpty(depth))
+        return vec4(1.0);
+    // Per axis a ball has variance R^2 / 5, and bilinear texels of width L have L^2 / 4 on average.
+    // Between two levels the weight is such that variances mix to the one wanted.
+    float radius = settings.radius * frame.depth.w * frame.size.y / depth; // pixels
+    float width = max(sqrt(0.8) * radius, 1.0);
+    int top = textureQueryLevels(momentsResult) - 1;
+    int level = min(int(log2(width)), top);
+    float ratio = width / float(1 << level);
+    float mixing = level < top ? clamp((ratio * ratio - 1.0) / 3.0, 0.0, 1.0) : 0.0;
+
+    vec2 place = vec2(pixel) + 0.5;
+    float here = 1.0 / depth;
+    vec2 sums = sumsOf(place, level, here, 1.0 - mixing) +
+                sumsOf(place, min(level + 1, top), here, mixing);
+    float toRadii = depth * (depth / settings.radius);
+    float behind = -sums.x * toRadii;
+    // Narrower spreads would divide rounding by nearly nothing.
+    float spread = max(sqrt(3.0 * max(sums.y - sums.x * sums.x, 0.0)) * toRadii, 0.01);
+    float open = (integralOfShare(behind + spread) - integralOfShare(behind - spread)) /
+                 (2.0 * spread);
+    return vec4(min(2.0 * open, 1.0));
+}

@@ -1,0 +1,60 @@
+// Line samples: pixels of a disc through a ball, and how much of the ball each pixel's ray crosses
+// (Loos and Sloan 2010; Szirmay-Kalos et al. 2010). Both papers lay the disc across the view axis
+// and cut lines parallel to it. Ours lies across the way to the ball, and a line is the true ray of
+// the pixel that is read: near the image's border a parallel cut would shear the ball into its own
+// plane and darken it, and a ray that misses the pixel's centre would do so on slanted surfaces.
+
+#include "depth.glsl"
+#include "noise.glsl"
+
+struct Disc {
+    vec3 centre, across, up; // both of the ball's radius, turned by the tile's vector
+    float shift;             // 0 ... 1, of the tap's place between one ring and the next
+};
+
+Disc discOf(vec3 centre, float radius, ivec2 pixel) {
+    vec3 axis = centre / max(length(centre), 1e-20);
+    float side = axis.z >= 0.0 ? 1.0 : -1.0; // Duff et al. 2017, a basis without bad directions
+    float a = -1.0 / (side + axis.z), b = axis.x * axis.y * a;
+    vec3 first = vec3(1.0 + side * axis.x * axis.x * a, side * b, -side * axis.x);
+    vec3 second = vec3(b, side + axis.y * axis.y * a, -axis.y);
+    vec3 random = tileDirection(pixel);
+    vec2 turn = radius * normalize(random.xy);
+    return Disc(centre, first * turn.x + second * turn.y, second * turn.x - first * turn.y,
+                0.5 * random.z + 0.5);
+}
+
+// Taps are even over the disc's area: rings of equal area, one golden angle apart. Over the noise
+// tile each ring is met at sixteen angles and radii.
+vec2 discUv(Disc disc, int i, int count) {
+    vec2 point = points[i].xy * sqrt((float(i) + disc.shift) / float(count));
+    return uvFromView(disc.centre + disc.across * point.x + disc.up * point.y);
+}
+
+bool isOutside(vec2 uv) {
+    return any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)));
+}
+
+// Depths at which the ray through uv enters and leaves the ball; equal where it misses.
+vec2 chordOf(vec2 uv, vec3 centre, float radius) {
+    vec3 ray = viewPosition(uv, 1.0);
+    float squared = dot(ray, ray), nearest = dot(ray, centre) / squared;
+    vec3 miss = centre - ray * nearest;
+    float reach = sqrt(max(radius * radius - dot(miss, miss), 0.0) / squared);
+    return max(vec2(nearest - reach, nearest + reach), 0.0);
+}
+
+// The part of a chord on the normal's side of the plane through `position`.
+vec2 clippedChord(vec2 chord, vec2 uv, vec3 position, vec3 normal) {
+    float facing = dot(normal, viewPosition(uv, 1.0));
+    if (abs(facing) < 1e-6)
+        return chord;
+    float plane = dot(normal, position) / facing;
+    return facing < 0.0 ? min(chord, plane) : max(chord, plane);
+}
+
+// How much of a chord is open: all of it where the surface lies beyond (or there is none), nothing
+// where it lies before, else the part in front of it. Surfaces are taken for infinitely thick.
+float openLength(vec2 chord, float sceneDepth) {
+    return clamp(sceneDepth, chord.x, chord.y) - chord.x;
+}
