@@ -18,14 +18,16 @@ Disc discOf(vec3 centre, float radius, ivec2 pixel) {
     float a = -1.0 / (side + axis.z), b = axis.x * axis.y * a;
     vec3 first = vec3(1.0 + side * axis.x * axis.x * a, side * b, -side * axis.x);
     vec3 second = vec3(b, side + axis.y * axis.y * a, -axis.y);
+    // The tile's vectors have sixteen evenly spaced heights, which make the turn, and azimuths that
+    // make the shift; by their azimuths, golden angles too, discs would be turned onto each other.
     vec3 random = tileDirection(pixel);
-    vec2 turn = radius * normalize(random.xy);
+    float angle = 3.14159265 * random.z + 6.28318531 * unitFloat(hash(uint(frame.seed.x) + 1u));
+    vec2 turn = radius * vec2(cos(angle), sin(angle));
     return Disc(centre, first * turn.x + second * turn.y, second * turn.x - first * turn.y,
-                0.5 * random.z + 0.5);
+                atan(random.y, random.x) / 6.28318531 + 0.5);
 }
 
-// Taps are even over the disc's area: rings of equal area, one golden angle apart. Over the noise
-// tile each ring is met at sixteen angles and radii.
+// Taps are even over the disc's area: rings of equal area, one golden angle apart.
 vec2 discUv(Disc disc, int i, int count) {
     vec2 point = points[i].xy * sqrt((float(i) + disc.shift) / float(count));
     return uvFromView(disc.centre + disc.across * point.x + disc.up * point.y);

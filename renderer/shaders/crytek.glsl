@@ -1,7 +1,7 @@
-// What the two forms of Crytek's technique share: cube corners turned by the noise tile, with lengths
-// growing geometrically, tested against the depth buffer (Jakobsen 2010, appendix A, after Kajalin,
-// ShaderX7 2009). The forms differ in the ball's length along the view, in its width, and in when
-// a nearer surface's sample fades to neutral.
+// What the two forms of Crytek's technique share: cube corners turned by the noise tile, with
+// lengths growing geometrically, tested against the depth buffer (Jakobsen 2010, appendix A, after
+// Kajalin, ShaderX7 2009). The forms differ in the ball's length along the view, in its width, and
+// in when a nearer surface's sample fades to neutral.
 float ballLength();
 float tooNear(float depth, float sceneDepth);
 

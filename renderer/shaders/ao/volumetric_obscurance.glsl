@@ -9,9 +9,9 @@
 // taps outside the image are left out. Constant occupancy weight inside the ball, no falloff.
 //
 // Limit: on a plane 1. Beside an endless wall at c = d / R occlusion is (1 - c)^2 (2 + c) / 4 both
-// ways: the wall fills equal shares of the clipped half and, doubled, of the whole ball; beside
-// steps as volumetric_obscurance_points. In a groove whose sides rise at 45 degrees the whole ball
-// is three quarters full (visibility 1/2); clipping by a level normal gives 1/2 too.
+// ways: the wall fills as much of the clipped half as, doubled, of the whole ball; beside steps as
+// volumetric_obscurance_points. At the foot of a right-angled groove a quarter of the ball is open,
+// half of the half above either side: 1/2 both ways.
 
 #include "ball.glsl"
 #include "blur_normal.glsl"

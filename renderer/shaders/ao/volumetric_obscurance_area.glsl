@@ -12,10 +12,10 @@
 // depth is then (1 / here - 1 / there) here^2 behind the pixel.
 //
 // Limit (nothing to converge but the model): a plane is open at any slant. Where a share q of the
-// area lies h nearer, mean -q h, variance q (1 - q) h^2 go into the form above; the area is a
-// square of texels whose second moment equals the ball's, not the disc. A groove at 45 degrees is
-// about as open as its ball; behind thin near things the spread hides the rest: few halos, but
-// occlusion is lost beside every silhouette.
+// area lies h nearer, mean -q h and variance q (1 - q) h^2 go into the form above; the area is a
+// square of texels whose second moment equals the ball's. Beside a curb that is near the ball's own
+// share (tests/renderer/limits_points_gl_test.cpp). The paper's weakness stays: beside a silhouette
+// the far side widens the spread, so near things lose occlusion there and the wall behind darkens.
 
 #include "depth.glsl"
 
@@ -82,13 +82,19 @@ vec4 gather(ivec2 pixel) {
 
     vec2 place = vec2(pixel) + 0.5;
     float here = 1.0 / depth;
-    vec2 sums = sumsOf(place, level, here, 1.0 - mixing) +
-                sumsOf(place, min(level + 1, top), here, mixing);
+    vec2 sums = vec2(0.0);
+    // Mesa's software driver fetches a quad of pixels from one level, whatever each asked for; so
+    // pixels go through the levels together and sit out those that are not theirs.
+    for (int i = 0; i <= top; ++i) {
+        float weight = i == level ? 1.0 - mixing : i == level + 1 ? mixing : 0.0;
+        if (weight > 0.0)
+            sums += sumsOf(place, i, here, weight);
+    }
     float toRadii = depth * (depth / settings.radius);
     float behind = -sums.x * toRadii;
     // Narrower spreads would divide rounding by nearly nothing.
     float spread = max(sqrt(3.0 * max(sums.y - sums.x * sums.x, 0.0)) * toRadii, 0.01);
-    float open = (integralOfShare(behind + spread) - integralOfShare(behind - spread)) /
-                 (2.0 * spread);
+    float open =
+        (integralOfShare(behind + spread) - integralOfShare(behind - spread)) / (2.0 * spread);
     return vec4(min(2.0 * open, 1.0));
 }
