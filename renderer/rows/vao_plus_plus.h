@@ -1,0 +1,75 @@
+#pragma once
+
+#include "renderer/disc_points.h"
+#include "renderer/rows/common.h"
+
+// VAO++ (Bokšanský, Pospíšil, Bittner 2017). Every extension of plain VAO has a switch of its own;
+// with `adaptive`, `culling`, `rangeCheck`, `luminanceSensitivity` and `colourBleeding` at 0, plain
+// VAO remains.
+namespace obscura::rows {
+
+constexpr Parameter vaoPlusPlusParameters[] = {
+    samples(
+        16, "Bokšanský 2017, table 2: its best setting",
+        "lines per pixel at most; 2, 4, 8, 16 and 32 have Poisson sets, other numbers a spiral"),
+    radius,
+    {"adaptive", Unit::flag, "fewer lines where the ball is small on the screen", 1, 0, 1,
+     "Bokšanský 2017, section 4.1"},
+    {"adaptiveDiameter", Unit::pixel,
+     "the ball's diameter on the screen up to which two lines serve; lines double with its area",
+     16, 0.01f, 1e4f,
+     "ours: the paper prints none; in Sponza the far half stays within 0.005 of all lines"},
+    {"culling", Unit::count,
+     "what a pass at an eighth of the resolution finds open: 0 it is not run, 1 greedy, stays "
+     "open, 2 careful, gets four lines",
+     2, 0, 2, "Bokšanský 2017, section 4.2"},
+    {"rangeCheck", Unit::flag, "lines hidden far behind an occluder lose weight", 1, 0, 1,
+     "Bokšanský 2017, section 4.4"},
+    {"thickness", Unit::ratio,
+     "distance behind an occluder, in radii, up to which a hidden line keeps its weight", 0.03f,
+     1e-3f, 1e3f, "Bokšanský 2017, section 4.4: u"},
+    {"luminanceSensitivity", Unit::count,
+     "bright surfaces are spared: 0 no, 1 by luminance, 2 by HSV value", 0, 0, 2,
+     "ours: its threshold belongs to a scene's lighting"},
+    {"luminanceThreshold", Unit::ratio,
+     "brightness (scene radiance, before exposure) at which occlusion has half faded, before its "
+     "power",
+     0.5f, 0, 1e3f, "Bokšanský 2017, figure 9"},
+    {"luminanceWidth", Unit::ratio, "brightness from there to where occlusion is full, or none",
+     0.3f, 1e-3f, 1e3f, "Bokšanský 2017, figure 9"},
+    {"luminancePower", Unit::ratio, "exponent of the fade", 1, 0.01f, 64,
+     "ours: straight; the paper's sigma, several in its figure 9"},
+    {"colourBleeding", Unit::count,
+     "0 none; otherwise every so-manieth line also tints by the colour it meets", 0, 0, 4,
+     "Bokšanský 2017, section 4.7: an option, of a half or a quarter of the lines"},
+    {"blur", Unit::count, "edge-aware filter: 0 none, 1 mean over the 3 x 3 noise tile, 2 Gaussian",
+     1, 0, 2, "Bokšanský 2017, sections 4.5 and 4.6"},
+    {"blurSize", Unit::count, "width of the Gaussian filter's window, pixels", 5, 1, 31,
+     "ours: the next after 3; the paper leaves it to the user"},
+    {"blurDeviation", Unit::pixel, "standard deviation of the Gaussian", 1.5f, 0.1f, 30,
+     "ours: fills that window; the paper leaves it to the user"},
+    radiusMultiplier(),
+    intensity(),
+    power(),
+};
+
+constexpr Pass vaoPlusPlusPasses[] = {
+    {.name = "cull", .format = Format::r16f, .enabledBy = "culling", .scale = 8},
+    {.name = "gather", .format = Format::r16f},
+    {.name = "blurAcross", .format = Format::r16f, .enabledBy = "blur"},
+    {.name = "blurDown", .format = Format::r16f, .enabledBy = "blur"},
+    {.name = "tint", .format = Format::rgba16f, .enabledBy = "colourBleeding"},
+    {.name = "tintAcross", .format = Format::rgba16f, .enabledBy = "colourBleeding"},
+    {.name = "bleed", .format = Format::rgba16f, .enabledBy = "colourBleeding"},
+};
+
+constexpr Technique vaoPlusPlus{"vao_plus_plus",
+                                "VAO++ 2017",
+                                "Bokšanský, Pospíšil and Bittner 2017, VAO++: Practical "
+                                "Volumetric Ambient Occlusion for Games",
+                                normals | light,
+                                poissonDiscPoints,
+                                vaoPlusPlusParameters,
+                                vaoPlusPlusPasses};
+
+} // namespace obscura::rows

@@ -1,0 +1,195 @@
+// VAO++ (Bokšanský, Pospíšil, Bittner 2017): volumetric ambient occlusion with its extensions, each
+// with a switch. Sections and equations below are that paper's.
+//
+// Limit with all switches off: the open fraction of the tangent ball. For a wall at c R, visibility
+// 1 - (1 - 2 c)^2 (1 + c) / 2 up to c = 1/2, then 1; for a step of height h seen from above, half
+// lengths e = sqrt(r^2 - x^2 - y^2) over the disc of r = R / 2 make it
+// 1 - 3 / (4 pi r^3) times the integral of clamp(h - r + e, 0, 2 e) over x > d. With `rangeCheck`,
+// lines with h > r + e have weight u / max(u, (h - r - e) / R) in both sums of equation 1.
+//
+// Departures:
+// - Lines follow lines of sight through pixel centres and are clipped at the camera
+//   (tangent_ball.glsl); the paper's prepared lengths hold for parallel ones. Equation 2's sum is
+//   taken over the lines themselves.
+// - The disc that decides on the number of lines is given in pixels, not in shares of the screen:
+//   it is pixels that the depth buffer has no more of.
+// - Equation 3 as printed clamps before it divides, so its base can be negative; clamped after.
+// - Equation 4's d is measured from where the line enters the ball: so a line that becomes hidden
+//   keeps its weight at first, as the paper's "smooth transition" asks.
+// - Equation 5 grows again beyond the radius; here it stays 0. Its x is the surface point that the
+//   line's pixel shows: at the sample point itself, a plane would tint itself by c = 1/4.
+// - Bright surfaces are spared after the filter, so that a lamp does not lighten the wall beside.
+
+#include "blur_normal.glsl"
+#include "noise.glsl"
+#include "tangent_ball.glsl"
+
+// Section 4.5: nine rotations dealt over 3 x 3 pixels in steps of 160 degrees, so that neighbours
+// have unlike ones; the seed turns them all. Columns turn a point.
+mat2 tileRotation(ivec2 pixel) {
+    int index = (4 * (pixel.x % 3 + 3 * (pixel.y % 3))) % 9;
+    float turn = unitFloat(hash(uint(frame.seed.x)));
+    float angle = 6.28318531 * ((float(index) + turn) / 9.0);
+    return mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
+}
+
+bool hasSet(int count) { return count >= 2 && count <= 32 && (count & (count - 1)) == 0; }
+int firstPoint(int count) { return hasSet(count) ? count - 2 : 62; }
+
+// Section 4.1: two lines up to the given diameter of the ball's disc, twice as many for twice the
+// area.
+int lineCount(TangentBall ball) {
+    int most = int(settings.samples);
+    if (settings.adaptive < 0.5)
+        return most;
+    float centreDepth = max(ball.depth - ball.toCentre.z, frame.depth.x);
+    float diameter = 2.0 * ball.radius / centreDepth * frame.depth.w * frame.size.y;
+    float doublings = 2.0 * log2(max(diameter / settings.adaptiveDiameter, 1.0));
+    return min(most, 2 << int(min(doublings, 20.0)));
+}
+
+// Equation 4: a line wholly behind an occluder counts the less the farther behind it is, for
+// occluders are not endless. Elsewhere 1, as is everything at the moment of disappearing.
+float weightOf(vec2 line, float scene) {
+    if (settings.rangeCheck < 0.5)
+        return 1.0;
+    float behind = (line.x - scene) / settings.radius;
+    return settings.thickness / max(settings.thickness, behind);
+}
+
+// Equations 1 and 2.
+float openFraction(ivec2 pixel, TangentBall ball, int count) {
+    mat2 rotation = tileRotation(pixel);
+    int first = firstPoint(count);
+    float open = 0.0, total = 0.0;
+    for (int i = first; i < first + count; ++i) {
+        ivec2 tap = discPixel(ball, rotation * points[i].xy);
+        vec2 line = lineThrough(ball, uvOf(tap));
+        float scene = depthOf(tap) - ball.depth;
+        float weight = weightOf(line, scene);
+        open += weight * openLength(line, scene);
+        total += weight * (line.y - line.x);
+    }
+    return total > 0.0 ? open / total : 1.0; // lines can all miss a ball smaller than a pixel
+}
+
+TangentBall ballOf(ivec2 pixel, float depth) {
+    return tangentBall(pixel, depth, normalOf(pixel), settings.radius);
+}
+
+// Section 4.2: eight lines for the pixel in the middle of each 8 x 8.
+vec4 cull(ivec2 cell) {
+    ivec2 pixel = min(8 * cell + 4, ivec2(frame.size.xy) - 1);
+    float depth = depthOf(pixel);
+    return vec4(isEmpty(depth) ? 1.0 : openFraction(pixel, ballOf(pixel, depth), 8));
+}
+
+// Bilinear reads at the corners of the pixel's cell: together the nine cells around, 24 x 24
+// pixels. One cell's occlusion from 1/256 on is seen.
+bool maybeOccluded(ivec2 pixel) {
+    vec2 cell = vec2(pixel / 8), texel = 1.0 / vec2(textureSize(cullResult, 0));
+    float least = 1.0;
+    for (int corner = 0; corner < 4; ++corner)
+        least = min(least, texture(cullResult, (cell + vec2(corner & 1, corner >> 1)) * texel).r);
+    return least < 1.0 - 1.0 / 1024.0;
+}
+
+// Lines after both savings. The careful pre-pass spends four on what it finds open, whatever the
+// quality, the greedy one none.
+int linesFor(ivec2 pixel, TangentBall ball) {
+    if (settings.culling < 0.5 || maybeOccluded(pixel))
+        return lineCount(ball);
+    return settings.culling < 1.5 ? 0 : 4;
+}
+
+// Equation 3: the factor on occlusion.
+float sensitivity(ivec2 pixel) {
+    vec3 colour = texelFetch(ambientLight, pixel, 0).rgb + texelFetch(directLight, pixel, 0).rgb;
+    float luminance = settings.luminanceSensitivity < 1.5
+                          ? dot(colour, vec3(0.2126, 0.7152, 0.0722))
+                          : max(colour.r, max(colour.g, colour.b));
+    float width = settings.luminanceWidth;
+    float bright = (luminance - settings.luminanceThreshold + width) / (2.0 * width);
+    return pow(1.0 - clamp(bright, 0.0, 1.0), settings.luminancePower);
+}
+
+float spared(ivec2 pixel, float visibility) {
+    return settings.luminanceSensitivity < 0.5 ? visibility
+                                               : 1.0 - (1.0 - visibility) * sensitivity(pixel);
+}
+
+vec4 gather(ivec2 pixel) {
+    float depth = depthOf(pixel);
+    if (isEmpty(depth))
+        return vec4(1.0);
+    TangentBall ball = ballOf(pixel, depth);
+    float visibility = openFraction(pixel, ball, linesFor(pixel, ball));
+    return vec4(settings.blur < 0.5 ? spared(pixel, visibility) : visibility);
+}
+
+// Section 4.6: one of two passes along the axes of a filter that is not quite separable. Pixels
+// more than the radius nearer or farther are left out.
+vec4 filtered(sampler2D values, ivec2 pixel, ivec2 axis) {
+    float depth = depthOf(pixel);
+    if (isEmpty(depth))
+        return vec4(1.0);
+    bool gaussian = settings.blur > 1.5;
+    int reach = gaussian ? int(settings.blurSize) / 2 : int(settings.blur);
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int i = -reach; i <= reach; ++i) {
+        ivec2 other = pixel + i * axis;
+        if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, ivec2(frame.size.xy))))
+            continue;
+        float otherDepth = depthOf(other), deviations = float(i) / settings.blurDeviation;
+        if (isEmpty(otherDepth) || abs(otherDepth - depth) > settings.radius)
+            continue;
+        float weight = gaussian ? exp(-0.5 * deviations * deviations) : 1.0;
+        sum += weight * texelFetch(values, other, 0);
+        weights += weight;
+    }
+    return sum / weights; // the pixel itself has weight 1
+}
+
+vec4 blurAcross(ivec2 pixel) { return filtered(gatherResult, pixel, ivec2(1, 0)); }
+
+vec4 blurDown(ivec2 pixel) {
+    return vec4(spared(pixel, filtered(blurAcrossResult, pixel, ivec2(0, 1)).r));
+}
+
+// Section 4.7: a mean of colours between white and the surfaces around, equation 5. Points are in
+// z-order, so every second or fourth still covers the disc. Given as what is taken from white,
+// which half floats hold finely.
+vec4 tint(ivec2 pixel) {
+    float depth = depthOf(pixel);
+    if (isEmpty(depth))
+        return vec4(0.0);
+    TangentBall ball = ballOf(pixel, depth);
+    vec3 position = viewPosition(ball.uv, depth), normal = normalOf(pixel), taken = vec3(0.0);
+    mat2 rotation = tileRotation(pixel);
+    int count = linesFor(pixel, ball), first = firstPoint(count);
+    int stride = int(settings.colourBleeding);
+    for (int i = 0; i < count; i += stride) {
+        ivec2 tap = discPixel(ball, rotation * points[first + i].xy);
+        vec3 towards = viewPosition(uvOf(tap), depthOf(tap)) - position;
+        float range = length(towards);
+        float near = 1.0 - min(range / settings.radius, 1.0);
+        float share = max(dot(towards, normal), 0.0) / max(range, 1e-12) * near * near;
+        taken += share * (1.0 - texelFetch(albedoBuffer, tap, 0).rgb);
+    }
+    return vec4(taken / float(max((count + stride - 1) / stride, 1)), 0.0);
+}
+
+vec4 tintAcross(ivec2 pixel) { return filtered(tintResult, pixel, ivec2(1, 0)); }
+
+// The tint multiplies ambient light times visibility, of which the frame has all but the change.
+// That visibility is the one after `intensity` and `power`, which the last pass puts on red alone.
+vec4 bleed(ivec2 pixel) {
+    if (isEmpty(depthOf(pixel)))
+        return vec4(1.0, 0.0, 0.0, 0.0);
+    float visibility = settings.blur < 0.5 ? texelFetch(gatherResult, pixel, 0).r
+                                           : texelFetch(blurDownResult, pixel, 0).r;
+    vec3 taken = filtered(tintAcrossResult, pixel, ivec2(0, 1)).rgb;
+    float shown = pow(max(1.0 - settings.intensity * (1.0 - visibility), 0.0), settings.power);
+    return vec4(visibility, -texelFetch(ambientLight, pixel, 0).rgb * min(shown, 1.0) * taken);
+}
