@@ -55,12 +55,12 @@ class VaoPlusPlusLimits : public Limits {
         }
         return sum / (3 * rows * seeds);
     }
-    // The shader's limit for a curb, by the midpoint rule over the disc; R = 1. `thickness` is the
-    // range check's, infinite for none.
+    // The shader's limit of occlusion for a curb, by the midpoint rule over the disc; R = 1.
+    // `thickness` is the range check's, infinite for none.
     static double limit(double distance, double step, double thickness) {
         constexpr int steps = 1000;
         constexpr double r = 0.5;
-        double open = 0, total = 0;
+        double blocked = 0, total = 0;
         for (int i = 0; i < steps; ++i)
             for (int j = 0; j < steps; ++j) {
                 const double x = (2 * (i + 0.5) / steps - 1) * r;
@@ -70,11 +70,11 @@ class VaoPlusPlusLimits : public Limits {
                     continue;
                 const double extent = std::sqrt(square), top = r + extent;
                 const double height = x > distance ? step : 0;
-                const double weight = thickness / std::max(thickness, height - top);
-                open += weight * std::clamp(top - height, 0.0, 2 * extent);
-                total += weight * 2 * extent;
+                const double share = thickness / std::max(thickness, height - top);
+                blocked += share * std::clamp(height - r + extent, 0.0, 2 * extent);
+                total += 2 * extent;
             }
-        return 1 - open / total;
+        return blocked / total;
     }
 };
 
@@ -91,11 +91,11 @@ TEST_F(VaoPlusPlusLimits, TheOpenBallOnPlanesAndConvexEdges) {
             EXPECT_NEAR(centre(wedge(slope), unfilteredPlain(samples)), 1, 2e-3) << samples;
 }
 
-// With the spiral of 512 lines in place of a set.
+// With the spiral of 256 lines in place of a set.
 TEST_F(VaoPlusPlusLimits, TheTangentBallBesideACurb) {
     for (const Curb& c : curbs) {
         EXPECT_NEAR(limit(c.distance, c.step, 1e9), c.occlusion, 1e-3);
-        const double found = 1 - centre(curb(c.distance, c.step), unfilteredPlain(512));
+        const double found = 1 - centre(curb(c.distance, c.step), unfilteredPlain(256));
         EXPECT_NEAR(found, c.occlusion, 0.01) << c.distance << " " << c.step;
         RecordProperty(std::to_string(c.distance) + "/" + std::to_string(c.step),
                        std::to_string(found));
@@ -111,14 +111,18 @@ TEST_F(VaoPlusPlusLimits, TheLargestSetHasTheSameMean) {
 }
 
 TEST_F(VaoPlusPlusLimits, TheRangeCheckLightensTheFootOfAHighStepOnly) {
-    Settings settings = unfilteredPlain(512);
+    Settings settings = unfilteredPlain(256);
     settings.set("rangeCheck", 1);
     for (const Curb& c : curbs) {
         const double expected =
             limit(c.distance, c.step, static_cast<double>(settings["thickness"]));
         const double found = 1 - centre(curb(c.distance, c.step), settings);
         EXPECT_NEAR(found, expected, 0.01) << c.distance << " " << c.step;
-        EXPECT_LT(found, c.step > 1 ? 0.02 : c.occlusion + 0.01);
+        if (c.step > 1) {
+            EXPECT_LT(found, 0.02);
+        }
+        RecordProperty(std::to_string(c.distance) + "/" + std::to_string(c.step),
+                       std::to_string(found) + " of " + std::to_string(expected));
     }
 }
 

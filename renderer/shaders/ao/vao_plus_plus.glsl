@@ -2,10 +2,10 @@
 // with a switch. Sections and equations below are that paper's.
 //
 // Limit with all switches off: the open fraction of the tangent ball. For a wall at c R, visibility
-// 1 - (1 - 2 c)^2 (1 + c) / 2 up to c = 1/2, then 1; for a step of height h seen from above, half
-// lengths e = sqrt(r^2 - x^2 - y^2) over the disc of r = R / 2 make it
-// 1 - 3 / (4 pi r^3) times the integral of clamp(h - r + e, 0, 2 e) over x > d. With `rangeCheck`,
-// lines with h > r + e have weight u / max(u, (h - r - e) / R) in both sums of equation 1.
+// 1 - (1 - 2 c)^2 (1 + c) / 2 up to c = 1/2, then 1. For a step of height h from x = d on, seen
+// from above, with r = R / 2 and half lengths e = sqrt(r^2 - x^2 - y^2), it is 1 - 3 / (4 pi r^3)
+// times the integral of clamp(h - r + e, 0, 2 e) over the disc's part x > d. With `rangeCheck` the
+// integrand is 2 e u / max(u, (h - r - e) / R) where h > r + e.
 //
 // Departures:
 // - Lines follow lines of sight through pixel centres and are clipped at the camera
@@ -14,8 +14,10 @@
 // - The disc that decides on the number of lines is given in pixels, not in shares of the screen:
 //   it is pixels that the depth buffer has no more of.
 // - Equation 3 as printed clamps before it divides, so its base can be negative; clamped after.
-// - Equation 4's d is measured from where the line enters the ball: so a line that becomes hidden
-//   keeps its weight at first, as the paper's "smooth transition" asks.
+// - Equation 4 is read as the share of a hidden line's length that counts as blocked; the rest is
+//   open. Were the line's whole weight meant, also in equation 2, a ball all hidden would stay
+//   black at any distance, and few lines would be twice as noisy (seen in Sponza). Its d is
+//   measured from where the line enters the ball, so that nothing jumps when a line disappears.
 // - Equation 5 grows again beyond the radius; here it stays 0. Its x is the surface point that the
 //   line's pixel shows: at the sample point itself, a plane would tint itself by c = 1/4.
 // - Bright surfaces are spared after the filter, so that a lamp does not lighten the wall beside.
@@ -48,9 +50,9 @@ int lineCount(TangentBall ball) {
     return min(most, 2 << int(min(doublings, 20.0)));
 }
 
-// Equation 4: a line wholly behind an occluder counts the less the farther behind it is, for
-// occluders are not endless. Elsewhere 1, as is everything at the moment of disappearing.
-float weightOf(vec2 line, float scene) {
+// Equation 4: what a line wholly behind an occluder still counts for as blocked. The farther behind
+// it is the less, for occluders are not endless; in the moment of disappearing, all.
+float blockedShare(vec2 line, float scene) {
     if (settings.rangeCheck < 0.5)
         return 1.0;
     float behind = (line.x - scene) / settings.radius;
@@ -61,16 +63,15 @@ float weightOf(vec2 line, float scene) {
 float openFraction(ivec2 pixel, TangentBall ball, int count) {
     mat2 rotation = tileRotation(pixel);
     int first = firstPoint(count);
-    float open = 0.0, total = 0.0;
+    float blocked = 0.0, total = 0.0;
     for (int i = first; i < first + count; ++i) {
         ivec2 tap = discPixel(ball, rotation * points[i].xy);
         vec2 line = lineThrough(ball, uvOf(tap));
-        float scene = depthOf(tap) - ball.depth;
-        float weight = weightOf(line, scene);
-        open += weight * openLength(line, scene);
-        total += weight * (line.y - line.x);
+        float scene = depthOf(tap) - ball.depth, whole = line.y - line.x;
+        blocked += blockedShare(line, scene) * (whole - openLength(line, scene));
+        total += whole;
     }
-    return total > 0.0 ? open / total : 1.0; // lines can all miss a ball smaller than a pixel
+    return total > 0.0 ? 1.0 - blocked / total : 1.0; // a ball smaller than a pixel can be missed
 }
 
 TangentBall ballOf(ivec2 pixel, float depth) {
