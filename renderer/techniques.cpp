@@ -1,7 +1,11 @@
 #include "protocols/error.h"
 #include "renderer/rows/aalborg.h"
-#include "renderer/rows/obscurance.h"
 #include "renderer/rows/horizon.h"
+#include "renderer/rows/obscurance.h"
+#include "renderer/rows/points.h"
+#include "renderer/rows/traced.h"
+#include "renderer/rows/vao_plus_plus.h"
+#include "renderer/rows/volume.h"
 
 #include <fmt/format.h>
 
@@ -14,17 +18,25 @@ namespace {
 constexpr Technique table[] = {
     {"none", "No ambient occlusion", "the control condition", depthOnly, nullptr, {}, {}},
     rows::aalborg::crytek,
+    rows::points::crytekShaderX7,
     rows::aalborg::blizzard,
     rows::aalborg::blizzardCorrected,
+    rows::points::starcraft,
     rows::aalborg::rayMarch,
-    rows::obscurance::alchemy,
-    rows::obscurance::alchemyFormOne,
-    rows::obscurance::alchemyCs562,
-    rows::obscurance::sao,
     rows::horizon::hbao,
     rows::horizon::hbaoDeinterleaved,
     rows::horizon::hbaoPlus,
     rows::horizon::multiScale,
+    rows::obscurance::alchemy,
+    rows::obscurance::alchemyFormOne,
+    rows::obscurance::alchemyCs562,
+    rows::obscurance::sao,
+    rows::volume::obscurance,
+    rows::volume::obscurancePoints,
+    rows::volume::obscuranceArea,
+    rows::volume::vao,
+    rows::vao::vaoPlusPlus,
+    rows::traced::rayTraced,
 };
 static_assert(wellFormed(table));
 

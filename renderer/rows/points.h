@@ -3,7 +3,7 @@
 #include "renderer/rows/common.h"
 
 // Techniques that test points of a volume against the depth buffer, besides the Aalborg thesis'.
-namespace obscura::rows {
+namespace obscura::rows::points {
 
 constexpr Parameter starcraftParameters[] = {
     samples(16, "Puri 2024, section 3.4: as many as for its other techniques"),
@@ -42,4 +42,4 @@ constexpr Technique crytekShaderX7{"crytek_shaderx7",
                                    crytekShaderX7Parameters,
                                    gatherAndBlur};
 
-} // namespace obscura::rows
+} // namespace obscura::rows::points

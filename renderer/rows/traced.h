@@ -3,7 +3,7 @@
 #include "renderer/rows/common.h"
 
 // The ray-traced reference as a technique: it has no passes, renderer/traced.h gives visibility.
-namespace obscura::rows {
+namespace obscura::rows::traced {
 
 constexpr Parameter rayTracedParameters[] = {
     radius,
@@ -27,4 +27,4 @@ constexpr Technique rayTraced{
     rayTracedParameters,
     {}};
 
-} // namespace obscura::rows
+} // namespace obscura::rows::traced

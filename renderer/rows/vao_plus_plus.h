@@ -6,7 +6,7 @@
 // VAO++ (Bokšanský, Pospíšil, Bittner 2017). Every extension of plain VAO has a switch of its own;
 // with `adaptive`, `culling`, `rangeCheck`, `luminanceSensitivity` and `colourBleeding` at 0, plain
 // VAO remains.
-namespace obscura::rows {
+namespace obscura::rows::vao {
 
 constexpr Parameter vaoPlusPlusParameters[] = {
     samples(
@@ -72,4 +72,4 @@ constexpr Technique vaoPlusPlus{"vao_plus_plus",
                                 vaoPlusPlusParameters,
                                 vaoPlusPlusPasses};
 
-} // namespace obscura::rows
+} // namespace obscura::rows::vao

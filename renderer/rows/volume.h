@@ -4,7 +4,7 @@
 
 // Techniques that measure how much of a ball is open: Loos and Sloan's around the pixel, by points,
 // lines or one area, and Szirmay-Kalos' on the surface.
-namespace obscura::rows {
+namespace obscura::rows::volume {
 
 constexpr Parameter clipByNormal{
     "clipByNormal",
@@ -89,4 +89,4 @@ constexpr Technique vao{"vao",
                         vaoParameters,
                         gatherAndBlur};
 
-} // namespace obscura::rows
+} // namespace obscura::rows::volume
