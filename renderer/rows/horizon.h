@@ -83,6 +83,8 @@ constexpr Parameter hbaoPlusParameters[] = {
     directions,
     steps,
     radius,
+    {"lineLength", Unit::ratio, "length of the lines, in radii", 1, 0.05f, 1,
+     "HBAO+ 3.0; gl_ssao has 0.5"},
     {"bias", Unit::ratio,
      "part of the cosine between normal and tap that is taken off, against self-occlusion", 0.1f, 0,
      1, "HBAO+ 3.0, README"},

@@ -30,13 +30,13 @@ double horizonLimit(Curb curb, double attenuation, double biasDegrees) {
     });
 }
 
-// The same of hbao_plus.glsl: taps evenly along each line, from the rim to the radius.
-double plusLimit(Curb curb, double bias) {
+// The same of hbao_plus.glsl: taps evenly along each line, which end at so many radii.
+double plusLimit(Curb curb, double bias, double end) {
     return lines([&](double cosine) {
         const int count = 1000;
         double sum = 0;
         for (int i = 0; i < count; ++i) {
-            const double along = (i + 0.5) / count;
+            const double along = (i + 0.5) / count * end;
             const double squared = along * along + std::pow(static_cast<double>(curb.step), 2);
             if (along > curb.distance / cosine && squared < 1)
                 sum += std::max(curb.step / std::sqrt(squared) - bias, 0.0) * (1 - squared);
@@ -132,9 +132,11 @@ using OneHorizon = HorizonLimits;
 TEST_F(OneHorizon, PlusBesideACurb) {
     for (const double bias : {0.0, 0.1})
         for (const Curb& c : curbs)
-            EXPECT_NEAR(occlusion(c, exhaustive("hbao_plus", {{"bias", bias}})), plusLimit(c, bias),
-                        c.distance < 0.2f ? 0.01 : 0.002)
+            EXPECT_NEAR(occlusion(c, exhaustive("hbao_plus", {{"bias", bias}})),
+                        plusLimit(c, bias, 1), c.distance < 0.2f ? 0.01 : 0.002)
                 << c.distance << " " << c.step << " " << bias;
+    EXPECT_NEAR(occlusion(curbs[0], exhaustive("hbao_plus", {{"bias", 0.1}, {"lineLength", 0.5}})),
+                plusLimit(curbs[0], 0.1, 0.5), 0.005);
 }
 
 // Visibility at the whole radius times visibility at half of it, which is a curb twice as large.

@@ -1,6 +1,6 @@
 // Horizon-based ambient occlusion, Bavoil, Sainz and Dimitrov 2008: horizon.glsl over the full
-// image and a cross-bilateral blur. Puri 2024 (Leeds), section 2.4, describes the same with 4
-// directions of 4 steps, W left out, and the sum halved; here W is a parameter and halving is
+// image and a cross-bilateral blur. Puri 2024 (Leeds), sections 2.4 and 3.4, describes the same
+// with 4 directions of 4 steps, without W, and halved; here W is a parameter and halving is
 // `intensity`.
 //
 // ownLayer makes its taps keep to the lattice of hbao_deinterleaved, so that the two can be

@@ -7,10 +7,12 @@
 // Left out: HBAO+'s second depth layer, its separate weights for the first and the further steps
 // (both 1 by default) and its radii for fore- and background, all off by default.
 //
+// Lines end at lineLength R: HBAO+ projects all of R, gl_ssao half of it (both RadiusToScreen).
+//
 // Limit: taps are uniform in angle and in distance r in the image, so near ones weigh more per
-// area: 1 / 2 pi R times the integral over phi and 0 < r < R of the term above. For a curb seen
-// from above, distance d and step h, with R = 1: 1 / pi times the integral over 0 < phi < pi / 2
-// and d / cos phi < r < 1 of sat(h / sqrt(r^2 + h^2) - bias) sat(1 - r^2 - h^2).
+// area: 1 / 2 pi L R times the integral over phi and 0 < r < L R of the term above, L = lineLength.
+// For a curb seen from above, distance d and step h, with R = 1: 1 / pi L times the integral over
+// 0 < phi < pi / 2 and d / cos phi < r < L of sat(h / sqrt(r^2 + h^2) - bias) sat(1 - r^2 - h^2).
 
 #include "blur_gaussian.glsl"
 #include "blur_normal.glsl"
@@ -20,7 +22,7 @@ vec4 shade(ivec2 pixel, int layer) {
     ivec2 place = placeOf(layer);
     ivec2 full = 4 * pixel + place;
     float depth = tapDepth(pixel, place, 4);
-    Lines lines = linesFrom(full, full, depth, settings.radius, 4);
+    Lines lines = linesFrom(full, full, depth, settings.lineLength * settings.radius, 4);
     if (isEmpty(depth) || lines.steps == 0)
         return vec4(1.0);
     vec3 position = viewPosition(uvOf(full), depth);

@@ -3,13 +3,13 @@
 // resolution, where taps are spread thin and thin things are missed, and a part of it at full
 // resolution, for the detail so lost; the former is brought to full size across no edge of depth.
 //
-// Departures. Of the talk only the abstract could be read. Programs that follow it cite it for
-// judging by the largest minus the smallest half-resolution value where full resolution is worth
-// while (Microsoft's D3D12 ray-traced AO sample), so there both resolutions share one radius and
-// the full one replaces the half one. Here every pixel has both, and the darker wins: each scale
-// sees some of the occluders of one hemisphere, so none is counted twice, and the result is never
-// lighter than the darker scale, as Hoang and Low 2012 (MSSAO) ask. `multiply` multiplies the
-// two instead, as programs do that stack two SSAO effects (pmndrs' postprocessing).
+// Departures. Of the talk only the abstract could be read. A ray-tracing sample cites it for taking
+// the largest minus the smallest value of a neighbourhood for its variance, so there, it seems,
+// both resolutions share one radius and the full one replaces the half one where that varies. Here
+// every pixel has both, and the darker wins: each scale sees some of the occluders of one
+// hemisphere, so none is counted twice, and the result is never lighter than the darker scale, as
+// Hoang and Low 2012 (MSSAO) ask. `multiply` multiplies the two instead, as programs do that stack
+// two SSAO effects (pmndrs' react-postprocessing, documentation of SSAO).
 //
 // Limit: hbao's with the whole radius, for there the small radius finds nothing that the large one
 // does not weigh at least as much. With `multiply`, visibility at R times that at detailRadius R.
