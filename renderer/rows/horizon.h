@@ -6,18 +6,19 @@
 // defaults, so that the rows differ only in what their names say.
 namespace obscura::rows::horizon {
 
-constexpr std::string_view glSsao = "nvpro-samples gl_ssao";
+constexpr std::string_view horizonSource = "nvpro-samples gl_ssao";
 
-constexpr Parameter directions{"directions",
-                               Unit::count,
-                               "lines searched around a pixel",
-                               8,
-                               1,
-                               64,
-                               "nvpro-samples gl_ssao; Puri 2024, section 3.4, has 4"};
-constexpr Parameter steps{"steps", Unit::count, "taps along a line", 4, 1, 512, glSsao};
+constexpr Parameter horizonDirections{"directions",
+                                      Unit::count,
+                                      "lines searched around a pixel",
+                                      8,
+                                      1,
+                                      64,
+                                      "nvpro-samples gl_ssao; Puri 2024, section 3.4, has 4"};
+constexpr Parameter horizonSteps{"steps", Unit::count, "taps along a line", 4,
+                                 1,       512,         horizonSource};
 
-constexpr Parameter angleBias{
+constexpr Parameter horizonBias{
     "angleBias", Unit::degree, "angle above the tangent plane below which nothing occludes", 30,
     0,           90,           "NVIDIA SDK 10, HBAO sample by the paper's authors"};
 
@@ -30,19 +31,19 @@ constexpr Parameter horizonAttenuation{
     1,
     "NVIDIA SDK 10, HBAO sample by the paper's authors"};
 
-constexpr Parameter screenReach{"screenReach",
-                                Unit::ratio,
-                                "longest line on screen, in heights of the image",
-                                1,
-                                0.01f,
-                                100,
-                                "ours: gl_ssao has no bound; NVIDIA SDK 11 has 0.1, which would "
-                                "shorten the radius of near things"};
+constexpr Parameter horizonReach{"screenReach",
+                                 Unit::ratio,
+                                 "longest line on screen, in heights of the image",
+                                 1,
+                                 0.01f,
+                                 100,
+                                 "ours: gl_ssao has no bound; NVIDIA SDK 11 has 0.1, which would "
+                                 "shorten the radius of near things"};
 
-constexpr Parameter blurGaussian{
-    "blur", Unit::flag, "edge-aware Gaussian along rows, then columns", 1, 0, 1, glSsao};
+constexpr Parameter horizonBlur{
+    "blur", Unit::flag, "edge-aware Gaussian along rows, then columns", 1, 0, 1, horizonSource};
 
-constexpr Parameter blurRadius(float value, std::string_view source) {
+constexpr Parameter horizonBlurRadius(float value, std::string_view source) {
     return {"blurRadius", Unit::count, "pixels on each side that the blur takes in", value, 1,
             32,           source};
 }
@@ -52,75 +53,68 @@ constexpr Parameter horizonIntensity =
     intensity(2.8f, "NVIDIA SDK 10, HBAO sample: contrast 1.4 / (1 - sin 30 degrees)");
 
 constexpr Parameter hbaoParameters[] = {
-    directions,
-    steps,
+    horizonDirections,
+    horizonSteps,
     radius,
-    angleBias,
+    horizonBias,
     horizonAttenuation,
-    screenReach,
+    horizonReach,
     {"ownLayer", Unit::flag,
      "taps keep to every fourth pixel, those of the layer that hbao_deinterleaved would have", 0, 0,
      1, "Bavoil, Sainz and Dimitrov 2008: the full image"},
-    blurGaussian,
-    blurRadius(3, glSsao),
+    horizonBlur,
+    horizonBlurRadius(3, horizonSource),
     radiusMultiplier(),
     horizonIntensity,
     power()};
 
-constexpr Parameter hbaoDeinterleavedParameters[] = {directions,
-                                                     steps,
-                                                     radius,
-                                                     angleBias,
-                                                     horizonAttenuation,
-                                                     screenReach,
-                                                     blurGaussian,
-                                                     blurRadius(3, glSsao),
-                                                     radiusMultiplier(),
-                                                     horizonIntensity,
-                                                     power()};
+constexpr Parameter hbaoDeinterleavedParameters[] = {
+    horizonDirections,  horizonSteps,     radius,      horizonBias,
+    horizonAttenuation, horizonReach,     horizonBlur, horizonBlurRadius(3, horizonSource),
+    radiusMultiplier(), horizonIntensity, power()};
 
 constexpr Parameter hbaoPlusParameters[] = {
-    directions,
-    steps,
+    horizonDirections,
+    horizonSteps,
     radius,
     {"lineLength", Unit::ratio, "length of the lines, in radii", 1, 0.05f, 1,
      "HBAO+ 3.0; gl_ssao has 0.5"},
     {"bias", Unit::ratio,
      "part of the cosine between normal and tap that is taken off, against self-occlusion", 0.1f, 0,
      1, "HBAO+ 3.0, README"},
-    screenReach,
-    blurGaussian,
-    blurRadius(4, "HBAO+ 3.0, README"),
+    horizonReach,
+    horizonBlur,
+    horizonBlurRadius(4, "HBAO+ 3.0, README"),
     radiusMultiplier(),
     intensity(2, "HBAO+ 3.0, CoarseAO: twice the mean"),
     power(2, "HBAO+ 3.0, README")};
 
 constexpr Parameter multiScaleParameters[] = {
-    directions,
-    steps,
+    horizonDirections,
+    horizonSteps,
     radius,
     {"detailRadius", Unit::ratio, "radius of the full-resolution pass, in radii", 0.25f, 0.01f, 1,
      "ours: about one step of the coarse pass"},
-    angleBias,
+    horizonBias,
     horizonAttenuation,
-    screenReach,
+    horizonReach,
     {"multiply", Unit::flag,
      "the scales' visibilities are multiplied, which counts near occluders twice; otherwise the "
      "darker wins",
      0, 0, 1, "Hoang and Low 2012: not lighter than the darkest scale"},
-    blurGaussian,
-    blurRadius(3, glSsao),
+    horizonBlur,
+    horizonBlurRadius(3, horizonSource),
     radiusMultiplier(),
     horizonIntensity,
     power()};
 
-constexpr Pass gatherAndBlurAlong[] = {
+constexpr Pass horizonPasses[] = {
     {.name = "gather", .format = Format::r16f},
     {.name = "blurAcross", .format = Format::r16f, .enabledBy = "blur"},
     {.name = "blurDown", .format = Format::r16f, .enabledBy = "blur"},
 };
 
-constexpr Pass layeredPasses[] = {
+constexpr Pass horizonLayerPasses[] = {
     {.name = "split", .format = Format::r32f, .scale = 4, .layers = 16},
     {.name = "shade", .format = Format::r16f, .scale = 4, .layers = 16},
     {.name = "merge", .format = Format::r16f},
@@ -138,13 +132,10 @@ constexpr Pass multiScalePasses[] = {
     {.name = "combine", .format = Format::r16f},
 };
 
-constexpr Technique hbao{"hbao",
-                         "HBAO 2008",
-                         "Bavoil, Sainz and Dimitrov 2008; Puri 2024, section 2.4",
-                         normals,
-                         nullptr,
-                         hbaoParameters,
-                         gatherAndBlurAlong};
+constexpr Technique hbao{
+    "hbao",       "HBAO 2008", "Bavoil, Sainz and Dimitrov 2008; Puri 2024, section 2.4",
+    normals,      nullptr,     hbaoParameters,
+    horizonPasses};
 constexpr Technique hbaoDeinterleaved{
     "hbao_deinterleaved",
     "HBAO, deinterleaved",
@@ -152,11 +143,11 @@ constexpr Technique hbaoDeinterleaved{
     normals,
     nullptr,
     hbaoDeinterleavedParameters,
-    layeredPasses};
+    horizonLayerPasses};
 constexpr Technique hbaoPlus{
-    "hbao_plus",  "HBAO+ 2014", "NVIDIA HBAO+ 3.0; Bavoil 2014, deinterleaved texturing",
-    normals,      nullptr,      hbaoPlusParameters,
-    layeredPasses};
+    "hbao_plus",       "HBAO+ 2014", "NVIDIA HBAO+ 3.0; Bavoil 2014, deinterleaved texturing",
+    normals,           nullptr,      hbaoPlusParameters,
+    horizonLayerPasses};
 constexpr Technique multiScale{
     "multi_scale",
     "HBAO at two scales",
