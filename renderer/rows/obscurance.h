@@ -6,7 +6,7 @@
 // it with a compute-shader blur, and its scalable successor.
 namespace obscura::rows::obscurance {
 
-constexpr std::string_view alchemyPaper = "McGuire et al. 2011, section 3";
+constexpr std::string_view alchemyPaper = "McGuire et al. 2011";
 
 constexpr Parameter depthBias{"bias",
                               Unit::ratio,
@@ -118,12 +118,12 @@ constexpr Parameter saoParameters[] = {
      saoProgram},
     {"mipOffset", Unit::count,
      "log2 of the distance in pixels up to which taps read full-resolution depth (q')", 3, 0, 16,
-     "McGuire et al. 2012, section 2.3"},
+     "McGuire et al. 2012, equation 10"},
     {"guardBand", Unit::ratio,
      "share of the image's height that is rendered beyond each border for taps to find", 0.1f, 0,
      0.5f, "ours: McGuire et al. 2012 name none"},
     {"blur", Unit::flag, "two passes of seven taps, keyed on depth", 1, 0, 1,
-     "McGuire et al. 2012, section 2.4"},
+     "McGuire et al. 2012"},
     {"blurStep", Unit::count, "pixels from one tap of the blur to the next", 2, 1, 8,
      "the authors' program"},
     {"edgeDepth", Unit::ratio, "depth difference, in radii, across which nothing blurs", 0.15f,

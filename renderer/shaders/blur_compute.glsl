@@ -18,7 +18,8 @@ shared float lineDepth[group + 2 * widest];
 shared vec3 lineNormal[group + 2 * widest];
 
 void load(sampler2D values, int slot, ivec2 pixel) {
-    bool outside = any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(values, 0)));
+    bool outside =
+        any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(values, 0)));
     lineDepth[slot] = outside ? frame.depth.y : depthOf(pixel);
     lineNormal[slot] = outside ? vec3(0.0) : normalOf(pixel);
     lineVisibility[slot] = outside ? 1.0 : texelFetch(values, pixel, 0).r;

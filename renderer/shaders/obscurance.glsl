@@ -1,6 +1,8 @@
 // What the obscurance estimators of Alchemy and its successors share. Lengths are in radii, so that
 // sums that the papers give in 1 / metres do not depend on the scene's size.
 
+#include "depth.glsl"
+
 // From `position` to the surface seen at `offset` on the disc of one radius around it that faces
 // the camera. It is the surface of the nearest pixel, at that pixel's centre: with the tap's own
 // place its depth would be off by the slope, and planes would shade themselves. Beyond the screen's

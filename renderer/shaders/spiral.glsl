@@ -21,8 +21,8 @@ vec2 spiralOffset(int i, int count, float turns, float start) {
     return alpha * vec2(cos(angle), sin(angle));
 }
 
-// Tap i of the unit disc, evenly spread over its area (Vogel 1979): the golden angle from one to the
-// next.
+// Tap i of the unit disc, evenly spread over its area (Vogel 1979): the golden angle from one to
+// the next.
 vec2 discOffset(int i, int count, float start) {
     float angle = 6.28318531 * fract(float(i) * 0.381966011 + start);
     return sqrt((float(i) + 0.5) / float(count)) * vec2(cos(angle), sin(angle));

@@ -6,16 +6,17 @@
 //
 // Departures: the taps are Vogel's spiral (r^2 and angle in equal steps), turned per pixel; taps
 // that see no surface occlude nothing; `insideSphere` adds form 1's H(R - |v|), which this form
-// dropped; contrast is applied after the filter.
+// dropped; contrast is applied after the filter. (The Leeds thesis adds z beta to each component of
+// n instead of to v . n, which is another method.)
 //
-// Limit: with H(d, h) the height h of the surface above the pixel's plane at a place of the disc,
+// Limit: with h the height, above the pixel's plane, of what is seen at a place of the disc,
 // A = 1 - 2 sigma (mean over the disc of h / (r^2 + h^2)). At distance d from a step of height h,
 // seen from above, A = 1 - (4 sigma / pi) times the integral over r from d to 1 of
 // arccos(d / r) h r / (r^2 + h^2). It is not bounded: sigma decides where it clamps to black.
 
 #include "blur_normal.glsl"
-#include "spiral.glsl"
 #include "obscurance.glsl"
+#include "spiral.glsl"
 
 vec4 gather(ivec2 pixel) {
     float depth = depthOf(pixel);

@@ -14,8 +14,8 @@
 // arccos(d / r) h / max(c^2, r^2 + h^2): form 1's without the factor 2 r of an even disc.
 
 #include "blur_normal.glsl"
-#include "spiral.glsl"
 #include "obscurance.glsl"
+#include "spiral.glsl"
 
 vec4 gather(ivec2 pixel) {
     float depth = depthOf(pixel);

@@ -8,8 +8,8 @@
 // r from d to sqrt(1 - h^2) of arccos(d / r) h r / max(u^2, r^2 + h^2).
 
 #include "blur_normal.glsl"
-#include "spiral.glsl"
 #include "obscurance.glsl"
+#include "spiral.glsl"
 
 vec4 gather(ivec2 pixel) {
     float depth = depthOf(pixel);

@@ -1,34 +1,34 @@
 // Scalable ambient obscurance (McGuire, Mara and Luebke 2012): Alchemy's estimator from depth
 // alone, at a cost that does not grow with the radius.
 //
-// 1. Depth and its hierarchy, each level a rotated-grid subsample of the one before (section 2.2).
-// 2. Face normal from the depth of the 2 x 2 quad (section 2.3). It is wrong in pixels beside an
-//    edge, which the filter hides.
+// 1. Depth and its hierarchy, each level a rotated-grid subsample of the one before.
+// 2. Face normal from the depth of the 2 x 2 quad. It is wrong in pixels beside an edge, which the
+//    filter hides.
 // 3. Taps along a spiral (equations 6 to 8), read from level log2(r') - q' of r' pixels away
 //    (equations 9 and 10). With the falloff that the authors' program recommends,
 //        A = max(0, 1 - 5 sigma / (s R^6)  sum max(0, R^2 - v . v)^3
 //                                              max(0, v . n - beta) / (v . v + epsilon)).
 //    Sigma is the common `intensity`. It has units of length although R^6 cancels the falloff's;
 //    here v is in radii, hence sigma, beta and the root of epsilon too.
-// 4. Two passes of seven taps keyed on depth (section 2.4), by default in steps of two pixels after
-//    averaging each quad, as in the authors' program. Half the pixels never reach a tap's
+// 4. Two passes of seven taps keyed on depth, by default in steps of two pixels after averaging
+//    each quad, as in the authors' program. Half the pixels never reach a tap's
 //    neighbours, which leaves a faint plaid; steps of one leave more noise instead.
 //
-// Departures: a texel of the hierarchy is placed where its depth was taken, not at the tap, which
-// shades tilted planes by their own slope (the paper leaves that to beta); filter weights fall to 0
-// over a depth difference in radii, not in parts of the far plane; taps that see no surface occlude
-// nothing.
+// Departures: a texel of the hierarchy is placed where its depth was taken. At the tap, as in the
+// authors' program, it is off by the slope, and with a radius of 190 pixels single pixels of a
+// plane tilted by 60 degrees turned black. Filter weights fall to 0 over a depth difference in
+// radii, not in parts of the far plane; taps that see no surface occlude nothing.
 //
 // Limit with beta and epsilon 0 at distance d from a step of height h, seen from above:
 // A = 1 - (5 / pi) times the integral over r from d to sqrt(1 - h^2) of
 // arccos(d / r) (1 - r^2 - h^2)^3 h / (r^2 + h^2), exact with level 0 (mipOffset high).
 
 #include "depth.glsl"
-#include "spiral.glsl"
 #include "obscurance.glsl"
+#include "spiral.glsl"
 
 // The pixel of the level before, of that size, that a pixel of a level is taken from: the corner of
-// its four changes from pixel to pixel, so that levels keep no rows or columns (equation 4).
+// its four changes from pixel to pixel, so that no row or column is lost or kept as a whole.
 ivec2 rotatedGrid(ivec2 pixel, ivec2 size) {
     return min(2 * pixel + ((pixel.yx & 1) ^ 1), size - 1);
 }
