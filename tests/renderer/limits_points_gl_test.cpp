@@ -78,7 +78,7 @@ TEST_F(PointsLimits, CrytekShaderX7BesideACurb) {
                           {0.1f, 0.2f, 1 - 0.4494},
                           {0.25f, 2, 1 - 0.4338}};
     for (const Curb& c : curbs)
-        EXPECT_NEAR(1 - centre(curb(c.distance, c.step), unfiltered("crytek_shaderx7", 1024),
+        EXPECT_NEAR(1 - centre(curb(c.distance, c.step), unfiltered("crytek_shaderx7", 256),
                                withoutBoost, 8),
                     c.occlusion, 0.01)
             << c.distance << " " << c.step;
@@ -114,7 +114,7 @@ constexpr Curb halfBall[] = {
 TEST_F(PointsLimits, ObscuranceBesideACurb) {
     for (const int clip : {0, 1})
         expectLineOcclusion(halfBall,
-                            with(unfiltered("volumetric_obscurance", 64), "clipByNormal", clip));
+                            with(unfiltered("volumetric_obscurance", 32), "clipByNormal", clip));
 }
 
 TEST_F(PointsLimits, ObscurancePointsBesideACurb) {
@@ -127,7 +127,7 @@ TEST_F(PointsLimits, ObscurancePointsBesideACurb) {
 // The groove leaves a quarter of the ball open, which is half of the half above either side.
 TEST_F(PointsLimits, ObscuranceOfAGrooveIsAHalfAndOfAConvexEdgeNothing) {
     for (const int clip : {0, 1}) {
-        const Settings lines = with(unfiltered("volumetric_obscurance", 64), "clipByNormal", clip);
+        const Settings lines = with(unfiltered("volumetric_obscurance", 32), "clipByNormal", clip);
         EXPECT_NEAR(middle(wedge(1), lines), 0.5, 0.01) << clip;
         EXPECT_NEAR(middle(wedge(-1), lines), 1, 0.01) << clip;
         const Settings balls =
@@ -145,15 +145,15 @@ TEST_F(PointsLimits, WithoutTheNormalADropHidesAWall) {
     for (Vertex& vertex : scene.vertices)
         vertex.position.x = std::max(vertex.position.x, -0.01f);
     addStrip(scene, -5, -10, -0.01f, -10);
-    const Settings settings = unfiltered("volumetric_obscurance", 64);
+    const Settings settings = unfiltered("volumetric_obscurance", 32);
     EXPECT_NEAR(middle(scene, with(settings, "clipByNormal", 0)), 1, 1e-3);
     EXPECT_NEAR(middle(scene, with(settings, "clipByNormal", 1)), 1 - 0.3164, 0.01);
 }
 
-// One area: the model's own limit. Of the texels around the middle of 513 pixels, bilinear, those
-// of 128 and of 256 pixels mix so that the variance per axis is that of the ball.
+// One area: the model's own limit. Around the middle of 513 pixels the spline takes two texels, of
+// 128 and of 256 pixels, which mix so that the variance per axis is that of the ball.
 double areaLimit(const Curb& c) {
-    const double pixels = 513 / 2.6, width = std::sqrt(0.8) * pixels / 128;
+    const double pixels = 513 / 2.6, width = std::sqrt(0.6) * pixels / 128;
     const double mixing = (width * width - 1) / 3, edge = 256.5 + c.distance * pixels;
     const double nearer =
         (1 - mixing) * 0.5 * (384 - edge) / 128 + mixing * 0.5 * (512 - edge) / 256;

@@ -43,22 +43,24 @@ vec4 momentsLevel(ivec2 pixel) {
     return vec4(mean, 0.0, 0.0);
 }
 
-// Adds a level's four texels around a place (in pixels), bilinearly weighted. The sums are of
-// weight times difference to `here`, and times its square plus variance.
-vec2 sumsOf(vec2 place, int level, float here, float weight) {
+// The nine texels of a level around a place (in pixels), weighted by a quadratic B-spline: bilinear
+// weights leave the texels' grid visible. Sums are of weight times difference to `here`, and
+// times its square plus variance.
+vec2 sumsOf(vec2 place, int level, float here) {
     ivec2 last = textureSize(momentsResult, level) - 1;
     vec2 texel = place / float(1 << level) - 0.5;
-    vec2 part = fract(texel);
+    vec2 nearest = floor(texel + 0.5), t = texel - nearest;
     vec2 sums = vec2(0.0);
-    for (int corner = 0; corner < 4; ++corner) {
-        ivec2 step = ivec2(corner & 1, corner >> 1);
-        vec2 share = mix(1.0 - part, part, vec2(step));
-        ivec2 at = clamp(ivec2(floor(texel)) + step, ivec2(0), last);
+    for (int i = 0; i < 9; ++i) {
+        ivec2 offset = ivec2(i % 3, i / 3) - 1;
+        vec2 aside = 0.5 + t * vec2(offset);
+        vec2 weight = mix(0.5 * aside * aside, 0.75 - t * t, equal(offset, ivec2(0)));
+        ivec2 at = clamp(ivec2(nearest) + offset, ivec2(0), last);
         vec2 found = texelFetch(momentsResult, at, level).rg;
         float apart = found.r - here;
-        sums += share.x * share.y * vec2(apart, apart * apart + found.g);
+        sums += weight.x * weight.y * vec2(apart, apart * apart + found.g);
     }
-    return weight * sums;
+    return sums;
 }
 
 // The integral of the ball's share up to x (radii), from far below.
@@ -71,10 +73,10 @@ vec4 gather(ivec2 pixel) {
     float depth = depthOf(pixel);
     if (isEmpty(depth))
         return vec4(1.0);
-    // Per axis a ball has variance R^2 / 5, and bilinear texels of width L have L^2 / 4 on average.
+    // Per axis a ball has variance R^2 / 5, and splines over texels of width L have L^2 / 3.
     // Between two levels the weight is such that variances mix to the one wanted.
     float radius = settings.radius * frame.depth.w * frame.size.y / depth; // pixels
-    float width = max(sqrt(0.8) * radius, 1.0);
+    float width = max(sqrt(0.6) * radius, 1.0);
     int top = textureQueryLevels(momentsResult) - 1;
     int level = min(int(log2(width)), top);
     float ratio = width / float(1 << level);
@@ -88,7 +90,7 @@ vec4 gather(ivec2 pixel) {
     for (int i = 0; i <= top; ++i) {
         float weight = i == level ? 1.0 - mixing : i == level + 1 ? mixing : 0.0;
         if (weight > 0.0)
-            sums += sumsOf(place, i, here, weight);
+            sums += weight * sumsOf(place, i, here);
     }
     float toRadii = depth * (depth / settings.radius);
     float behind = -sums.x * toRadii;
