@@ -171,7 +171,7 @@ double areaLimit(const Curb& c) {
 TEST_F(PointsLimits, ObscuranceAreaBesideACurb) {
     for (Curb c : halfBall) {
         c.occlusion = areaLimit(c);
-        expectOcclusion({&c, 1}, neutral("volumetric_obscurance_area"));
+        expectOcclusion({&c, 1}, neutral("volumetric_obscurance_area"), 0.003);
     }
 }
 
