@@ -92,7 +92,7 @@ RayRates measureRays(const Scene& scene, const Surfaces& surfaces, const TraceSe
     Totals totals;
     {
         const RayScene bare(scene);
-        const RayPackets maker(surfaces, settings);
+        const RayPackets maker(bare, surfaces, settings);
         const auto loops = [&] {
             bareLoops(bare, maker, settings.integral == Integral::falloff, totals);
         };

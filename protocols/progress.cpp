@@ -37,7 +37,7 @@ void Progress::print(double done, const std::string& note, bool last) {
     std::string time = fmt::format("{} so far", spell(elapsed));
     if (last)
         time = fmt::format("in {}", spell(elapsed));
-    else if (share > 0)
+    else if (share >= 0.01) // earlier, rates are of starting up
         time = fmt::format("{} left", spell(elapsed * (1 - share) / share));
 
     constexpr int width = 24;

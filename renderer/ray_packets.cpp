@@ -14,11 +14,9 @@ namespace obscura {
 
 namespace {
 
-// How far a G-buffer's point may lie below its triangle, as far as intersection can tell. Rounding:
-// some units in the last place of the scene's size, for Embree's error grows with a triangle's.
-// Rasterisers snap corners to 1/256 pixel, which tilts triangles by as much.
+// How far above its triangle a ray starts: some units in the last place of the scene's size, for
+// Embree's error grows with a triangle's.
 constexpr float roundingShare = 8 * std::numeric_limits<float>::epsilon();
-constexpr float pixelShare = 1.0f / 256;
 
 std::uint64_t mixed(std::uint64_t value) { // Steele et al. 2014, "splitmix64"
     value += 0x9e3779b97f4a7c15u;
@@ -58,8 +56,9 @@ std::uint64_t interleaved(std::uint32_t a, std::uint32_t b) {
 
 } // namespace
 
-RayPackets::RayPackets(const Surfaces& surfaces, const TraceSettings& settings)
-    : surfaces_(surfaces), settings_(settings) {
+RayPackets::RayPackets(const RayScene& scene, const Surfaces& surfaces,
+                       const TraceSettings& settings)
+    : scene_(scene), surfaces_(surfaces), settings_(settings) {
     const auto cells = std::bit_ceil(static_cast<std::uint32_t>(std::max(settings.rays, 2))) / 2;
     // More digits for the azimuth make cells of about equal width and length.
     const int digits = std::countr_zero(cells);
@@ -82,10 +81,47 @@ RayPackets::RayPackets(const Surfaces& surfaces, const TraceSettings& settings)
                         pixels_.push_back(static_cast<std::uint32_t>(i));
 }
 
-RayPackets::Group RayPackets::group(int index) const {
-    Group group;
+// Rasterisers snap corners to 1/256 pixel, so a G-buffer's point may lie beside its triangle: in a
+// concave edge, behind the next one. The ray through the pixel's centre meets the true surface
+// nearby. Where it meets none within a pixel's width, the G-buffer's own point must do.
+RayPackets::Start RayPackets::startOf(std::size_t pixel) const {
     const Frame& frame = surfaces_.frame;
     const glm::mat3 worldFromView(frame.worldFromView);
+    const auto width = static_cast<std::size_t>(surfaces_.width);
+    const float depth = surfaces_.depth[pixel];
+    const glm::vec3 view = surfaces_.position(static_cast<float>(pixel % width),
+                                              static_cast<float>(pixel / width), depth);
+    // A triangle seen edge-on, or a vertex without a normal, may have none that is a number.
+    glm::vec3 face = surfaces_.faceNormal[pixel], normal = surfaces_.normal[pixel];
+    if (!usable(face))
+        face = usable(normal) ? normal : -glm::normalize(view);
+    if (!usable(normal))
+        normal = face;
+    Start start{glm::vec3(frame.worldFromView * glm::vec4(view, 1)),
+                glm::normalize(worldFromView * normal), worldFromView * face, 0};
+    const glm::vec3 camera(frame.worldFromView[3]);
+    start.offset = roundingShare * std::max({largest(start.point), largest(camera), frame.depth.y});
+    const float reach =
+        4 * start.offset + depth * std::abs(frame.viewFromUv.y) * frame.size.w; // a pixel's width
+    const glm::vec3 ahead = worldFromView * glm::normalize(view);
+    const float distance = glm::length(view), first = std::max(distance - reach, 0.0f);
+    const glm::vec3 from = start.point + ahead * (first - distance);
+    RTCRayHit ray{};
+    ray.ray = {from.x, from.y, from.z, 0, ahead.x, ahead.y, ahead.z, 0, distance - first + reach,
+               ~0u,    0,      0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    findNearest(scene_.handle(), ray);
+    const glm::vec3 cross(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z);
+    const glm::vec3 found = glm::normalize(cross);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID || !usable(found))
+        return start;
+    start.point = from + ahead * ray.ray.tfar;
+    start.face = glm::dot(found, ahead) > 0 ? -found : found;
+    return start;
+}
+
+RayPackets::Group RayPackets::group(int index) const {
+    Group group;
     const auto first = static_cast<std::size_t>(index) * packetSize;
     group.size = static_cast<int>(std::min<std::size_t>(packetSize, pixels_.size() - first));
     for (int scrambling = 0; scrambling < 2; ++scrambling) {
@@ -105,25 +141,11 @@ RayPackets::Group RayPackets::group(int index) const {
         const std::size_t pixel = pixels_[first + (lane < group.size ? l : 0)];
         group.pixel[l] = pixel;
         group.valid[l] = lane < group.size ? -1 : 0;
-        const float depth = surfaces_.depth[pixel];
-        const auto width = static_cast<std::size_t>(surfaces_.width);
-        const glm::vec3 view = surfaces_.position(static_cast<float>(pixel % width),
-                                                  static_cast<float>(pixel / width), depth);
-        // A triangle seen edge-on, or a vertex without a normal, may have none that is a number.
-        glm::vec3 face = surfaces_.faceNormal[pixel], normal = surfaces_.normal[pixel];
-        if (!usable(face))
-            face = usable(normal) ? normal : -glm::normalize(view);
-        if (!usable(normal))
-            normal = face;
-        face = worldFromView * face;
-        const glm::mat3 basis = basisAround(glm::normalize(worldFromView * normal));
-        const glm::vec3 world(frame.worldFromView * glm::vec4(view, 1));
-        const float scale =
-            std::max({largest(world), largest(glm::vec3(frame.worldFromView[3])), frame.depth.y});
-        const float offset = roundingShare * scale +
-                             pixelShare * depth * std::abs(frame.viewFromUv.y) * frame.size.w;
-        const glm::vec3 origin = world + face * offset, local = glm::transpose(basis) * face;
-        group.begin[l] = std::min(offset, static_cast<float>(settings_.radius) / 2);
+        const Start start = startOf(pixel);
+        const glm::mat3 basis = basisAround(start.normal);
+        const glm::vec3 origin = start.point + start.face * start.offset;
+        const glm::vec3 local = glm::transpose(basis) * start.face;
+        group.begin[l] = std::min(start.offset, static_cast<float>(settings_.radius) / 2);
         for (int axis = 0; axis < 3; ++axis) {
             group.origin[axis][l] = origin[axis];
             group.across[axis][l] = basis[0][axis];

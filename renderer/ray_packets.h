@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/embree.h"
+#include "renderer/ray_scene.h"
 #include "renderer/reference.h"
 
 #include <array>
@@ -19,7 +19,7 @@ constexpr int packetSize = 16;
 
 class RayPackets {
   public:
-    RayPackets(const Surfaces& surfaces, const TraceSettings& settings);
+    RayPackets(const RayScene& scene, const Surfaces& surfaces, const TraceSettings& settings);
 
     template <typename T>
     struct alignas(64) Lanes : std::array<T, packetSize> {}; // aligned as Embree wants it
@@ -55,6 +55,14 @@ class RayPackets {
     struct Point {
         std::uint32_t digits[2]; // both dimensions' binary digits, the first one last
     };
+    // Where a pixel's rays start, in world space; unit vectors.
+    struct Start {
+        glm::vec3 point, normal, face;
+        float offset; // along the face normal, metres
+    };
+    Start startOf(std::size_t pixel) const;
+
+    const RayScene& scene_;
     const Surfaces& surfaces_;
     TraceSettings settings_;
     std::vector<Point> points_;

@@ -42,8 +42,8 @@ class Tracer {
   public:
     Tracer(const RayScene& scene, const Surfaces& surfaces, const TraceSettings& settings,
            Reference& result)
-        : scene_(scene), surfaces_(surfaces), settings_(settings), packets_(surfaces, settings),
-          result_(result) {}
+        : scene_(scene), surfaces_(surfaces), settings_(settings),
+          packets_(scene, surfaces, settings), result_(result) {}
 
     // Groups until there are no more; done by as many threads as one likes.
     void work(const TraceProgress& progress) {
