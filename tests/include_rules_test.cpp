@@ -33,12 +33,13 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"stimuli", {"stimuli", "renderer", "gl", "image", "protocols"}},
     {"experiment", {"experiment", "gl", "image", "protocols"}},
     {"analysis", {"analysis", "image", "protocols"}},
+    {"bench", {"bench", "renderer", "gl", "image", "protocols"}},
 };
 
 // Libraries that one part keeps to itself.
 const std::map<std::string, std::set<std::string>> keepers = {
     {"epoxy/", {"gl"}},          {"GLFW/", {"gl"}},          {"OpenImageIO/", {"image"}},
-    {"tiny_gltf", {"renderer"}}, {"toml++/", {"protocols"}},
+    {"tiny_gltf", {"renderer"}}, {"toml++/", {"protocols"}}, {"embree", {"renderer"}},
 };
 
 template <typename Visit>
