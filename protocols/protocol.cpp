@@ -148,8 +148,10 @@ TechniqueSetting parseTechnique(const std::string& name, TomlTable table) {
     setting.name = name;
     setting.place = table.place();
     setting.technique = table.text("technique");
+    if (table.has("preset"))
+        setting.preset = {table.text("preset"), table.placeOf("preset")};
     for (const auto& [key, value] : table.raw()) {
-        if (key.str() == "technique")
+        if (key.str() == "technique" || key.str() == "preset")
             continue;
         const std::string keyName(key.str());
         if (!value.is_number() && !value.is_boolean())

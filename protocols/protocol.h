@@ -72,13 +72,20 @@ struct Setting {
     Place place;
 };
 
-// A technique with the settings that differ from its defaults, under a name of the study's own
-// ("blizzard24"). The renderer checks both against its technique table.
+struct PresetName {
+    std::string name;
+    Place place;
+};
+
+// A technique with the settings that differ from its defaults, or from a preset of its authors',
+// under a name of the study's own ("blizzard24"). The renderer checks all against its technique
+// table.
 struct TechniqueSetting {
     std::string name;
     std::string technique;
     std::vector<Setting> settings;
     Place place;
+    std::optional<PresetName> preset = {};
 };
 
 // How a simulated participant answers; never used for real ones.

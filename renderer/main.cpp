@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 struct Options {
     bool devices = false, list = false, layers = false;
     std::string device, scene = "atrium", techniqueId = "none", level = "moderate", scenes;
-    std::string recipe, describe, normals = "smooth";
+    std::string recipe, describe, preset, normals = "smooth";
     std::vector<std::string> settings;
     std::vector<double> camera;
     double fovDegrees = 50, radius = 0.5, exposure = 0;
@@ -79,6 +79,12 @@ int printTechnique(const std::string& id) {
         fmt::print("  {:<16} {:>8} {:<7} [{}, {}]  {}; {}\n", parameter.name, parameter.value,
                    spell(parameter.unit), parameter.low, parameter.high, parameter.meaning,
                    parameter.source);
+    for (const Preset& preset : row.presets) {
+        fmt::print("  preset {}:", preset.name);
+        for (const PresetValue& given : preset.values)
+            fmt::print(" {} = {}", given.name, given.value);
+        fmt::print("\n");
+    }
     return 0;
 }
 
@@ -137,6 +143,8 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     protocol.views.push_back(view);
     protocol.levels.push_back(levelOf(options.level));
     TechniqueSetting setting{"technique", options.techniqueId, {}, {}};
+    if (!options.preset.empty())
+        setting.preset = {options.preset, {}};
     for (const std::string& text : options.settings) {
         const std::size_t equals = text.find('=');
         if (equals == std::string::npos)
@@ -249,6 +257,7 @@ int run(int argc, char** argv) {
         ->check(CLI::IsMember({"low", "moderate", "high"}))
         ->capture_default_str();
     app.add_option("--technique", options.techniqueId, "id of --list")->capture_default_str();
+    app.add_option("--preset", options.preset, "a preset of --describe; --set overrides it");
     app.add_option("--set", options.settings, "NAME=NUMBER, a setting of --describe");
     app.add_option("--radius", options.radius, "metres")->capture_default_str();
     app.add_option("--width", options.width)->check(CLI::Range(1, 16384))->capture_default_str();

@@ -39,13 +39,30 @@ void Settings::set(std::string_view name, double value, const Place& place) {
                                              technique_->id, name, suggestion(name, names)));
     }
     const Parameter& parameter = technique_->parameters[i];
-    const bool whole = parameter.unit == Unit::count || parameter.unit == Unit::flag;
+    const bool whole = isWhole(parameter);
     if (!(value >= parameter.low && value <= parameter.high) ||
         (whole && value != std::floor(value)))
         throw Error(place, fmt::format("expected {} from {} to {} for \"{}\", found {}",
                                        whole ? "a whole number" : "a number", parameter.low,
                                        parameter.high, name, value));
     values_[i] = static_cast<float>(value);
+}
+
+void Settings::apply(std::string_view preset, const Place& place) {
+    std::vector<std::string> names;
+    for (const Preset& row : technique_->presets) {
+        if (row.name == preset) {
+            for (const PresetValue& given : row.values)
+                values_[index(given.name)] = given.value; // wellFormed() has checked them
+            return;
+        }
+        names.emplace_back(row.name);
+    }
+    throw Error(place, names.empty()
+                           ? fmt::format("technique \"{}\" has no presets, found \"{}\"",
+                                         technique_->id, preset)
+                           : fmt::format("technique \"{}\" has no preset \"{}\"{}", technique_->id,
+                                         preset, suggestion(preset, names)));
 }
 
 std::map<std::string, double> Settings::named() const {
@@ -63,6 +80,8 @@ Settings settingsOf(const TechniqueSetting& setting, double radius) {
         throw Error(setting.place, error.what());
     }
     Settings settings(*found);
+    if (setting.preset)
+        settings.apply(setting.preset->name, setting.preset->place);
     if (settings.has("radius"))
         settings.set("radius", radius, setting.place);
     for (const Setting& given : setting.settings)

@@ -21,6 +21,8 @@ class Settings {
     // An unknown name, a value out of range, or a fraction where the unit is whole: an Error at
     // `place`.
     void set(std::string_view name, double value, const Place& place = {});
+    // All that the technique's preset of that name says; an unknown name is an Error at `place`.
+    void apply(std::string_view preset, const Place& place = {});
 
     const std::vector<float>& values() const { return values_; }
     std::map<std::string, double> named() const;
@@ -32,7 +34,8 @@ class Settings {
     std::vector<float> values_;
 };
 
-// The technique and settings that a protocol names; `radius` (metres) serves where it gives none.
+// The technique and settings that a protocol names: its preset, then the scene's `radius` (metres),
+// then what it sets itself.
 Settings settingsOf(const TechniqueSetting& setting, double radius);
 
 } // namespace obscura

@@ -69,6 +69,17 @@ enum Reads : unsigned {
     rays = 8     // the triangles themselves: no passes, the reference gives visibility
 };
 
+// Settings that its authors offer together under one name ("high"). Never the radius, which is the
+// scene's.
+struct PresetValue {
+    std::string_view name;
+    float value;
+};
+struct Preset {
+    std::string_view name;
+    std::span<const PresetValue> values;
+};
+
 // A set of sample points that the shader reads as points[i], made once per settings.
 using PointSet = std::vector<glm::vec4> (*)(const Settings&);
 
@@ -83,6 +94,7 @@ struct Technique {
     // channels, the others are light that the pixel sends to the camera besides its ambient light
     // times visibility: bounced, or redistributed. No passes: everything is open.
     std::span<const Pass> passes;
+    std::span<const Preset> presets = {};
 };
 
 // Parameters that mean the same in every technique that has them, so the table's users need not
@@ -97,17 +109,30 @@ std::span<const Technique> techniques();
 const Technique& technique(std::string_view id);
 
 // What static_assert holds the table to: unique ids, a citation, defaults inside ranges, flags and
-// counts whole, passes enabled by parameters that exist.
+// counts whole, passes enabled by parameters that exist, presets that could be set.
 constexpr bool isWhole(const Parameter& parameter) {
     return parameter.unit == Unit::count || parameter.unit == Unit::flag;
 }
 
+constexpr bool takes(const Parameter& parameter, float value) {
+    return parameter.low <= value && value <= parameter.high &&
+           (!isWhole(parameter) || value == static_cast<float>(static_cast<int>(value)));
+}
+
 constexpr bool wellFormed(const Parameter& parameter) {
-    const bool inside = parameter.low <= parameter.value && parameter.value <= parameter.high;
     return !parameter.name.empty() && !parameter.meaning.empty() && !parameter.source.empty() &&
-           inside &&
-           (!isWhole(parameter) ||
-            parameter.value == static_cast<float>(static_cast<int>(parameter.value)));
+           takes(parameter, parameter.value);
+}
+
+constexpr bool wellFormed(const Preset& preset, std::span<const Parameter> parameters) {
+    for (const PresetValue& value : preset.values) {
+        bool found = false;
+        for (const Parameter& parameter : parameters)
+            found |= parameter.name == value.name && takes(parameter, value.value);
+        if (!found || value.name == "radius")
+            return false;
+    }
+    return !preset.name.empty();
 }
 
 constexpr bool wellFormed(const Pass& pass, std::span<const Parameter> parameters) {
@@ -130,6 +155,13 @@ constexpr bool wellFormed(const Technique& technique) {
     for (const Pass& pass : technique.passes)
         if (!wellFormed(pass, technique.parameters))
             return false;
+    for (std::size_t i = 0; i < technique.presets.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+            if (technique.presets[i].name == technique.presets[j].name)
+                return false;
+        if (!wellFormed(technique.presets[i], technique.parameters))
+            return false;
+    }
     // Five samplers are inputs, and a shader has sixteen.
     return technique.passes.size() <= 11 && !technique.id.empty() && !technique.title.empty() &&
            !technique.citation.empty();

@@ -1,5 +1,6 @@
 #include "protocols/error.h"
 #include "renderer/rows/aalborg.h"
+#include "renderer/rows/gtao.h"
 #include "renderer/rows/horizon.h"
 #include "renderer/rows/obscurance.h"
 #include "renderer/rows/points.h"
@@ -27,6 +28,8 @@ constexpr Technique table[] = {
     rows::horizon::hbaoDeinterleaved,
     rows::horizon::hbaoPlus,
     rows::horizon::multiScale,
+    rows::gtao::gtao,
+    rows::gtao::visibilityBitmask,
     rows::obscurance::alchemy,
     rows::obscurance::alchemyFormOne,
     rows::obscurance::alchemyCs562,

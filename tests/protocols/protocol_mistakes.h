@@ -98,6 +98,8 @@ inline const Mistake mistakes[] = {
     {"SettingIsText", "samples = 24", "samples = \"many\"",
      "small.toml:25:11: techniques.blizzard24.samples: expected a number, true or false, found "
      "\"many\""},
+    {"PresetIsNumber", "samples = 24", "preset = 3",
+     "small.toml:25:10: techniques.blizzard24.preset: expected a text in quotes, found 3"},
     {"NoConditions",
      "[[conditions]]\nid = \"one\"\nscene = \"box\"\nlevel = \"low\"\npair = [\"none\", "
      "\"blizzard24\"]\n",

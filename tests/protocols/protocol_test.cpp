@@ -81,6 +81,17 @@ TEST(Protocol, ReadsAWholeStudy) {
     EXPECT_EQ(protocol.sha256.size(), 64u);
 }
 
+TEST(Protocol, ReadsAPresetBesideSettings) {
+    const Protocol protocol =
+        parseProtocol(with("samples = 24", "preset = \"high\"\nsamples = 24"), "small.toml");
+    const TechniqueSetting& technique = protocol.technique("blizzard24");
+    ASSERT_TRUE(technique.preset.has_value());
+    EXPECT_EQ(technique.preset->name, "high");
+    EXPECT_EQ(technique.preset->place.line, 25);
+    EXPECT_EQ(technique.settings.size(), 1u);
+    EXPECT_FALSE(protocol.technique("none").preset.has_value());
+}
+
 TEST(Protocol, KeepsTheOrderOfTheFile) {
     const Protocol protocol = parseProtocol(valid, "small.toml");
     std::vector<std::string> names;
