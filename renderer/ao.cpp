@@ -149,9 +149,16 @@ int guardPixels(const Settings& settings, int height) {
                : 0;
 }
 
+namespace {
+
+constexpr glm::vec4 nothing[] = {glm::vec4(0)}; // for a buffer must not be empty
+
+} // namespace
+
 ProxySpheres::ProxySpheres(std::span<const glm::vec4> spheres)
     : count_(static_cast<int>(spheres.size())),
-      buffer_(std::as_bytes(spheres), gl::UniformBuffer::Kind::storage) {}
+      buffer_(std::as_bytes(spheres.empty() ? nothing : spheres),
+              gl::UniformBuffer::Kind::storage) {}
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
     : settings_(settingsBlock(settings)), open_(gl::constantTexture({1, 1, 1, 1})) {

@@ -13,25 +13,44 @@ double coordinate(double root, double power, int i) {
     return value - std::floor(value);
 }
 
-} // namespace
+int countOf(const Settings& settings) { return static_cast<int>(settings["samples"]); }
 
-std::vector<glm::vec4> ballPoints(const Settings& settings) {
+// Directions are spread evenly; lengths are uniform numbers to the power `lengthPower`.
+std::vector<glm::vec4> pointsInBall(int count, double lengthPower) {
     constexpr double root = 1.2207440846057596; // of x^4 = x + 1
-    const int count = static_cast<int>(settings["samples"]);
     std::vector<glm::vec4> points;
     for (int i = 0; i < count; ++i) {
         const double z = 2 * coordinate(root, 1, i) - 1;
         const double angle = 2 * std::numbers::pi * coordinate(root, 2, i);
-        const double length = std::cbrt(coordinate(root, 3, i)), flat = std::sqrt(1 - z * z);
+        const double length = std::pow(coordinate(root, 3, i), lengthPower);
+        const double flat = std::sqrt(1 - z * z);
         points.emplace_back(length * flat * std::cos(angle), length * flat * std::sin(angle),
                             length * z, 0);
     }
     return points;
 }
 
+} // namespace
+
+std::vector<glm::vec4> ballPoints(const Settings& settings) {
+    return pointsInBall(countOf(settings), 1.0 / 3);
+}
+
+std::vector<glm::vec4> rayPoints(const Settings& settings) {
+    return pointsInBall(countOf(settings), 1);
+}
+
+std::vector<glm::vec4> squarePoints(const Settings& settings) {
+    constexpr double root = 1.3247179572447461; // of x^3 = x + 1
+    std::vector<glm::vec4> points;
+    for (int i = 0; i < countOf(settings); ++i)
+        points.emplace_back(coordinate(root, 1, i), coordinate(root, 2, i), 0, 0);
+    return points;
+}
+
 std::vector<glm::vec4> boxKernel(const Settings& settings) {
     constexpr double root = 1.1673039782614187; // of x^5 = x + 1
-    const int count = static_cast<int>(settings["samples"]);
+    const int count = countOf(settings);
     std::vector<glm::vec4> points;
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 inBox(2 * coordinate(root, 1, i) - 1, 2 * coordinate(root, 2, i) - 1,
@@ -45,9 +64,8 @@ std::vector<glm::vec4> boxKernel(const Settings& settings) {
 
 std::vector<glm::vec4> goldenDirections(const Settings& settings) {
     const double turn = 2 * std::numbers::pi * (2 - std::numbers::phi);
-    const int count = static_cast<int>(settings["samples"]);
     std::vector<glm::vec4> points;
-    for (int i = 0; i < count; ++i)
+    for (int i = 0; i < countOf(settings); ++i)
         points.emplace_back(std::cos(i * turn), std::sin(i * turn), 0, 0);
     return points;
 }

@@ -9,6 +9,11 @@ namespace obscura {
 // `samples` points (xyz) spread evenly over the volume of the unit ball: the R3 sequence (Roberts
 // 2018), which has no clumps at 8 points and converges at 4096.
 std::vector<glm::vec4> ballPoints(const Settings& settings);
+// The same directions, but lengths spread evenly: points on the way of evenly spread rays.
+std::vector<glm::vec4> rayPoints(const Settings& settings);
+// `samples` points (xy) spread evenly over the unit square: the R2 sequence, whose every beginning
+// is spread evenly too.
+std::vector<glm::vec4> squarePoints(const Settings& settings);
 
 // `samples` points (xyz) of LearnOpenGL's kernel around +z (de Vries 2020; Puri 2024, section 3.3):
 // a point drawn evenly from the box |x|, |y| <= 1, 0 <= z <= 1 gives the direction alone, so that a

@@ -5,6 +5,7 @@
 #include "renderer/ao.h"
 #include "renderer/builtin.h"
 #include "renderer/composite.h"
+#include "renderer/proxies.h"
 #include "renderer/traced.h"
 
 #include <fmt/format.h>
@@ -192,24 +193,31 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
                             "recipe was made; generate the stimuli again",
                             what, expected, found));
     };
-    const bool changed = stage_->sceneSha256 != recipe.sceneSha256;
-    const bool traces = technique(recipe.technique).reads & rays;
-    if (changed) {
+    std::optional<Scene> scene; // only the GPU keeps it
+    const auto load = [&] {
+        scene = loadSceneOf(recipe.view, folders_);
+        mustBe(fmt::format("scene \"{}\"", recipe.view.name), scene->sha256, recipe.sceneSha256);
+    };
+    if (stage_->sceneSha256 != recipe.sceneSha256) {
         stage_->light.reset();
+        stage_->spheres.reset();
         stage_->tracer.reset();
         stage_->scene.reset();
+        load();
+        warnings_ = scene->warnings;
+        stage_->scene.emplace(*scene);
+        stage_->sceneSha256 = recipe.sceneSha256;
+        stage_->lighting.clear();
     }
-    if (changed || (traces && !stage_->tracer)) {
-        const Scene scene = loadSceneOf(recipe.view, folders_);
-        mustBe(fmt::format("scene \"{}\"", recipe.view.name), scene.sha256, recipe.sceneSha256);
-        if (changed) {
-            warnings_ = scene.warnings;
-            stage_->scene.emplace(scene);
-            stage_->sceneSha256 = recipe.sceneSha256;
-            stage_->lighting.clear();
-        }
-        if (traces)
-            stage_->tracer.emplace(scene);
+    if ((technique(recipe.technique).reads & spheres) && !stage_->spheres) {
+        if (!scene)
+            load();
+        stage_->spheres.emplace(proxySpheres(*scene));
+    }
+    if ((technique(recipe.technique).reads & rays) && !stage_->tracer) {
+        if (!scene)
+            load();
+        stage_->tracer.emplace(*scene);
     }
     // The recipe's JSON is a canonical text of everything lighting depends on, and of more.
     Recipe lightingOnly;

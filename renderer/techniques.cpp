@@ -2,6 +2,7 @@
 #include "renderer/rows/aalborg.h"
 #include "renderer/rows/gtao.h"
 #include "renderer/rows/horizon.h"
+#include "renderer/rows/light.h"
 #include "renderer/rows/obscurance.h"
 #include "renderer/rows/points.h"
 #include "renderer/rows/traced.h"
@@ -39,6 +40,8 @@ constexpr Technique table[] = {
     rows::volume::obscuranceArea,
     rows::volume::vao,
     rows::vao::vaoPlusPlus,
+    rows::light::ssdo,
+    rows::light::proxySpheresTechnique,
     rows::traced::rayTraced,
 };
 static_assert(wellFormed(table));

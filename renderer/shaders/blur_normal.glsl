@@ -1,4 +1,5 @@
 // The same blur for techniques that read normals: pixels facing another way are left out too.
+// All four channels are blurred alike.
 
 #include "blur.glsl"
 
@@ -10,7 +11,8 @@ vec4 blurByDepthAndNormal(sampler2D values, ivec2 pixel) {
         return vec4(1.0);
     vec2 slope = depthSlope(pixel, depth);
     vec3 normal = normalOf(pixel);
-    float sum = 0.0, weights = 0.0;
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
     for (int y = -2; y < 2; ++y)
         for (int x = -2; x < 2; ++x) {
             ivec2 other = pixel + ivec2(x, y);
@@ -18,8 +20,8 @@ vec4 blurByDepthAndNormal(sampler2D values, ivec2 pixel) {
                 continue;
             float weight = depthWeight(depth, slope, ivec2(x, y), depthOf(other)) *
                            smoothstep(0.6, 0.9, dot(normal, normalOf(other)));
-            sum += weight * texelFetch(values, other, 0).r;
+            sum += weight * texelFetch(values, other, 0);
             weights += weight;
         }
-    return weights > 0.0 ? vec4(sum / weights) : texelFetch(values, pixel, 0).rrrr;
+    return weights > 0.0 ? sum / weights : texelFetch(values, pixel, 0);
 }

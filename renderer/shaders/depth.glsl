@@ -7,3 +7,10 @@ float depthOf(ivec2 pixel) {
 }
 
 float depthAt(vec2 uv) { return depthOf(pixelOf(uv)); }
+
+// The surface in view space over a screen position, in the middle of its pixel; beyond the border,
+// as deep as at it.
+vec3 surfaceOver(vec2 uv) {
+    vec2 pixel = clamp(floor(uv * frame.size.xy), vec2(-1e6), vec2(1e6));
+    return viewPosition((pixel + 0.5) * frame.size.zw, depthOf(ivec2(pixel)));
+}

@@ -1,4 +1,5 @@
-// One rectangle per proxy sphere, around the pixels that may lie within `radius` of it.
+// One rectangle per proxy sphere, around the pixels that may lie within `radius` x `distantReach`
+// of it.
 #include "view.glsl"
 
 flat out vec4 sphere; // view space
@@ -6,7 +7,7 @@ flat out vec4 sphere; // view space
 void main() {
     vec4 world = spheres[gl_InstanceID];
     sphere = vec4((frame.viewFromWorld * vec4(world.xyz, 1.0)).xyz, world.w);
-    float reach = world.w + settings.radius;
+    float reach = world.w + settings.radius * settings.distantReach;
     float nearest = -sphere.z - reach, farthest = -sphere.z + reach;
     // The box around the ball; each side is widest at the nearer or the farther depth.
     vec2 low = sphere.xy - reach, high = sphere.xy + reach;

@@ -3,6 +3,7 @@
 #include "renderer/ao.h"
 #include "renderer/gl/context.h"
 #include "renderer/image.h"
+#include "renderer/proxies.h"
 #include "renderer/settings.h"
 #include "renderer/traced.h"
 
@@ -10,6 +11,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 
 namespace obscura {
 
@@ -48,10 +50,11 @@ inline Level whiteLight() {
     return level;
 }
 
-// Visibility as a technique's passes leave it: 1 channel, top row first.
-inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settings& settings,
-                          int width, int height, std::uint64_t seed = 1,
-                          Normals kind = Normals::smooth) {
+// What a technique's passes leave: visibility, and the light to add where it has any. Top row
+// first.
+inline Image occlusionOf(const Scene& scene, const Camera& camera, const Settings& settings,
+                         int width, int height, std::uint64_t seed = 1,
+                         Normals kind = Normals::smooth, const Level& level = whiteLight()) {
     const GpuScene gpuScene(scene);
     const int guard = guardPixels(settings, height);
     const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
@@ -61,27 +64,47 @@ inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settin
         return tracedVisibility(RayTracer(scene), surfacesOf(gpuScene, GBufferPass(), frame, kind),
                                 settings, seed);
     const int fullWidth = width + 2 * guard, fullHeight = height + 2 * guard;
+    const Lighting lighting(level, gpuScene, std::filesystem::path());
     GBufferContent content;
+    content.shadingNormal = lighting.readsNormals();
     if (settings.technique().reads & normals)
         content.occlusionNormal = kind;
     const GBuffer gbuffer(fullWidth, fullHeight, content);
     GBufferPass().draw(gpuScene, frame, gbuffer);
-    const Lighting lighting(whiteLight(), gpuScene, std::filesystem::path());
-    const LightBuffers light(fullWidth, fullHeight, false);
+    const LightBuffers light(fullWidth, fullHeight, lighting.hasDirect());
     lighting.draw(gbuffer, light);
+    std::optional<ProxySpheres> proxies;
+    if (settings.technique().reads & spheres)
+        proxies.emplace(proxySpheres(scene, 256)); // enough for scenes of a few quads
     const OcclusionPasses passes(settings, fullWidth, fullHeight);
-    const gl::Texture& texture = passes.visibility({gbuffer, &light, &lighting, nullptr});
-    Image image{width, height, 1, {}};
+    const gl::Texture& texture =
+        passes.visibility({gbuffer, &light, &lighting, proxies ? &*proxies : nullptr});
+    const int channels = passes.sendsLight() ? 4 : 1;
+    Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
         image.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                             1.0f);
         return image;
     }
-    const std::vector<float> values =
-        gl::readFloats(texture, fullWidth, fullHeight, gl::Format::r32f);
-    for (int y = guard + height - 1; y >= guard; --y)
-        image.pixels.insert(image.pixels.end(), values.begin() + y * fullWidth + guard,
-                            values.begin() + y * fullWidth + guard + width);
+    const std::vector<float> values = gl::readFloats(
+        texture, fullWidth, fullHeight, channels == 4 ? gl::Format::rgba32f : gl::Format::r32f);
+    for (int y = guard + height - 1; y >= guard; --y) {
+        const auto row = values.begin() + (y * fullWidth + guard) * channels;
+        image.pixels.insert(image.pixels.end(), row, row + width * channels);
+    }
+    return image;
+}
+
+// Visibility alone: 1 channel.
+inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settings& settings,
+                          int width, int height, std::uint64_t seed = 1,
+                          Normals kind = Normals::smooth) {
+    Image image = occlusionOf(scene, camera, settings, width, height, seed, kind);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < image.pixels.size() / channels; ++i)
+        image.pixels[i] = image.pixels[i * channels];
+    image.pixels.resize(image.pixels.size() / channels);
+    image.channels = 1;
     return image;
 }
 

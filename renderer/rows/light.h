@@ -1,0 +1,87 @@
+#pragma once
+
+#include "renderer/rows/common.h"
+
+// Techniques that read more of the scene than its depth and normals: its light, or spheres in its
+// stead.
+namespace obscura::rows::light {
+
+constexpr Parameter ssdoParameters[] = {
+    samples(16, "ours: the thesis' noise tile makes 256 of them"),
+    radius,
+    {"bias", Unit::ratio, "distance behind the surface's plane, in radii, that is ignored", 0.01f,
+     0, 1, "ours: clears the rounding of normals"},
+    {"thickness", Unit::ratio,
+     "depth behind the surface, in radii, from which a point counts as open again", 2, 0.01f, 1000,
+     "ours: the ball's diameter, instead of the paper's second depth layer"},
+    {"directional", Unit::flag,
+     "open directions let in the environment's light of that direction, not the mean", 1, 0, 1,
+     "Ritschel et al. 2009, equation 1"},
+    {"bounce", Unit::flag, "blocked directions let in the light of the surface that blocks them", 1,
+     0, 1, "Ritschel et al. 2009, equation 2"},
+    {"bounceStrength", Unit::ratio, "factor on the bounced light", 1, 0, 10,
+     "Ritschel et al. 2009, section 4: adjusted by hand"},
+    {"nearestSender", Unit::ratio,
+     "distance, in radii, from which nearer surfaces send light too, lest it grow without bound",
+     0.25f, 0.01f, 1,
+     "ours: in a right-angled corner, what blocks then sends about as much as it blocks"},
+    blur,
+    radiusMultiplier(),
+    intensity(),
+    power()};
+
+constexpr Pass ssdoPasses[] = {
+    {.name = "gather", .format = Format::rgba16f},
+    {.name = "bounce", .format = Format::rgba16f, .enabledBy = "bounce"},
+    {.name = "shade", .format = Format::rgba16f},
+};
+
+constexpr Technique ssdo{"ssdo",
+                         "Screen-space directional occlusion",
+                         "Ritschel, Grosch and Seidel 2009",
+                         normals | light,
+                         rayPoints,
+                         ssdoParameters,
+                         ssdoPasses};
+
+constexpr Parameter proxySpheresParameters[] = {
+    samples(32, "ours: the thesis' noise tile makes 512 of them",
+            "neighbouring pixels read per pixel, at most"),
+    radius,
+    {"detail", Unit::flag, "high-frequency pass: occlusion by neighbouring pixels", 1, 0, 1,
+     "Shanmugam and Arikan 2007, both passes"},
+    {"distant", Unit::flag, "low-frequency pass: occlusion by spheres fitted to the scene", 1, 0, 1,
+     "Shanmugam and Arikan 2007, both passes"},
+    {"pixelsPerTap", Unit::pixel,
+     "area of the search disc on the screen for each pixel read, so that far surfaces read fewer",
+     64, 1, 1e5f, "ours: all of 32 up to 15 metres away with the default radius, at 720 lines"},
+    {"proxySize", Unit::ratio,
+     "radius of a pixel's sphere, relative to the disc that is its share of the search disc", 1,
+     0.01f, 10, "ours: the discs' areas add up to the search disc's"},
+    {"distantReach", Unit::ratio,
+     "distance from a fitted sphere, in radii, at which its effect has faded to nothing", 2, 0.1f,
+     100, "ours: beyond what details reach; farther, the sum counts what lies behind walls"},
+    {"sphereSize", Unit::ratio,
+     "radius of a fitted sphere, relative to the one that encloses what it stands for", 0.55f,
+     0.01f, 1, "ours: enclosing discs have 1.6 times the surface's area, half of which faces away"},
+    {"nearFade", Unit::ratio,
+     "distance outside a sphere, in its own radii, over which its effect fades in", 1, 0, 10,
+     "ours: nearer, its cap is wider than half of the hemisphere, and no surface's"},
+    {"bias", Unit::ratio, "cosine that is ignored: caps at the horizon do not count", 0.05f, 0, 1,
+     "ours: clears the rounding of depth and the facets of round meshes"},
+    blur,
+    radiusMultiplier(),
+    intensity(),
+    power()};
+
+constexpr Pass proxySpheresPasses[] = {
+    {.name = "detail", .format = Format::r16f, .enabledBy = "detail"},
+    {.name = "distant", .format = Format::r32f, .enabledBy = "distant", .stage = Stage::splat},
+    {.name = "combine", .format = Format::r16f},
+};
+
+constexpr Technique proxySpheresTechnique{
+    "proxy_spheres", "Proxy spheres 2007",   "Shanmugam and Arikan 2007", normals | spheres,
+    squarePoints,    proxySpheresParameters, proxySpheresPasses};
+
+} // namespace obscura::rows::light
