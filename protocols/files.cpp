@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <vector>
 
 namespace obscura {
 
@@ -73,6 +74,17 @@ void publish(const fs::path& unfinished, const fs::path& path) {
     flushToDisk(unfinished);
     fs::rename(unfinished, path);
     flushToDisk(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void removeUnfinishedFiles(const fs::path& folder) {
+    if (!fs::exists(folder))
+        return;
+    std::vector<fs::path> hidden;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.is_regular_file() && entry.path().filename().string().starts_with('.'))
+            hidden.push_back(entry.path());
+    for (const fs::path& path : hidden)
+        fs::remove(path);
 }
 
 void writeFile(const fs::path& path, std::string_view content) {

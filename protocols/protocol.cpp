@@ -1,28 +1,16 @@
 #include "protocols/protocol.h"
 
 #include "protocols/files.h"
-#include "protocols/toml_table.h"
+#include "protocols/study_parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace obscura {
 
 namespace {
-
-// Scene coordinates: more than a million metres is a mistyped number.
-constexpr double farAway = 1e6;
-
-template <typename T>
-std::vector<std::string> names(const std::vector<T>& items) {
-    std::vector<std::string> result;
-    for (const T& item : items)
-        result.push_back(item.name);
-    return result;
-}
 
 template <typename T>
 const T& find(const std::vector<T>& items, const std::string& name) {
@@ -35,63 +23,8 @@ template <typename T>
 std::string reference(TomlTable& table, std::string_view key, const std::vector<T>& items,
                       std::string_view kind) {
     const std::string name = table.text(key);
-    const auto known = names(items);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        throw Error(table.placeOf(*table.node(key), table.pathOf(key)),
-                    fmt::format("expected the name of {}, found \"{}\"{}", kind, name,
-                                suggestion(name, known)));
+    mustExist(table.placeOf(*table.node(key), table.pathOf(key)), name, items, kind);
     return name;
-}
-
-bool lowerCaseName(const std::string& name, std::string_view alsoAllowed) {
-    return std::all_of(name.begin(), name.end(), [&](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') ||
-               alsoAllowed.find(c) != std::string_view::npos;
-    });
-}
-
-void checkName(const TomlTable& table, std::string_view key, const std::string& name,
-               std::string_view alsoAllowed, std::string_view spelt) {
-    if (!lowerCaseName(name, alsoAllowed))
-        throw Error(table.placeOf(key), fmt::format("expected lower-case letters, digits{}, "
-                                                    "found \"{}\"",
-                                                    spelt, name));
-}
-
-Camera parseCamera(TomlTable table) {
-    Camera camera;
-    camera.position = table.triple("position", -farAway, farAway);
-    camera.target = table.triple("target", -farAway, farAway);
-    camera.up = table.triple("up", -1, 1, camera.up);
-    camera.fovDegrees = table.number("fovDegrees", 1, 120, camera.fovDegrees);
-    camera.near = table.number("near", 1e-4, 1e3, camera.near);
-    table.finish();
-
-    const Vec3 &p = camera.position, &t = camera.target, &u = camera.up;
-    const Vec3 d{t[0] - p[0], t[1] - p[1], t[2] - p[2]};
-    const double sine =
-        std::hypot(d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]);
-    if (!(sine > 1e-6 * std::hypot(d[0], d[1], d[2])))
-        throw Error(table.place(), "expected a target apart from the position and a view direction "
-                                   "that is not along \"up\"");
-    return camera;
-}
-
-View parseView(const std::string& name, TomlTable table) {
-    View view;
-    view.name = name;
-    view.place = table.place();
-    const bool file = table.has("file"), builtin = table.has("builtin");
-    if (file == builtin)
-        throw Error(view.place, fmt::format("expected either \"file\" (glTF, in the scenes folder) "
-                                            "or \"builtin\", found {}",
-                                            file ? "both" : "neither"));
-    (file ? view.file : view.builtin) = table.text(file ? "file" : "builtin");
-    view.camera = parseCamera(table.requiredTable("camera", "a camera"));
-    view.radius = table.number("radius", 1e-4, 1e4);
-    view.exposure = table.number("exposure", -20, 20, view.exposure);
-    table.finish();
-    return view;
 }
 
 Sky parseSky(TomlTable table) {
@@ -141,30 +74,6 @@ Level parseLevel(const std::string& name, TomlTable table) {
     return level;
 }
 
-// Which settings exist, and their ranges, the renderer's technique table knows; here they must be
-// numbers, or true and false for 1 and 0.
-TechniqueSetting parseTechnique(const std::string& name, TomlTable table) {
-    TechniqueSetting setting;
-    setting.name = name;
-    setting.place = table.place();
-    setting.technique = table.text("technique");
-    if (table.has("preset"))
-        setting.preset = {table.text("preset"), table.placeOf("preset")};
-    for (const auto& [key, value] : table.raw()) {
-        if (key.str() == "technique" || key.str() == "preset")
-            continue;
-        const std::string keyName(key.str());
-        if (!value.is_number() && !value.is_boolean())
-            throw Error(
-                table.placeOf(value, table.pathOf(keyName)),
-                fmt::format("expected a number, true or false, found {}", TomlTable::spell(value)));
-        const double number =
-            value.is_boolean() ? (*value.value<bool>() ? 1.0 : 0.0) : *value.value<double>();
-        setting.settings.push_back({keyName, number, table.placeOf(keyName)});
-    }
-    return setting;
-}
-
 // One member of a pair: a technique's name. A table could only say what must not differ.
 std::string parseMember(TomlTable& condition, const toml::node& node, std::size_t index,
                         const Protocol& protocol) {
@@ -184,11 +93,7 @@ std::string parseMember(TomlTable& condition, const toml::node& node, std::size_
                                        "found {}",
                                        TomlTable::spell(node)));
     const std::string name = *named->value<std::string>();
-    const auto known = names(protocol.techniques);
-    if (std::find(known.begin(), known.end(), name) == known.end())
-        throw Error(place, fmt::format("expected the name of a technique under [techniques], "
-                                       "found \"{}\"{}",
-                                       name, suggestion(name, known)));
+    mustExist(place, name, protocol.techniques, "a technique under [techniques]");
     return name;
 }
 
@@ -307,7 +212,7 @@ void parseImage(TomlTable table, Protocol& protocol) {
     table.finish();
 }
 
-Protocol parseRoot(TomlTable root) {
+Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     Protocol protocol;
     protocol.name = root.text("name");
     checkName(root, "name", protocol.name, "-", " and hyphens");
@@ -315,15 +220,14 @@ Protocol parseRoot(TomlTable root) {
     protocol.seed = static_cast<std::uint64_t>(root.integer("seed", 0, 2147483647));
     if (auto image = root.table("image"))
         parseImage(std::move(*image), protocol);
-    protocol.normals = static_cast<Normals>(
-        root.choice("normals", normalsNames(), static_cast<std::size_t>(protocol.normals)));
+    protocol.normals = parseNormals(root);
     for (auto& [name, table] : root.tables("scenes", "at least one scene, [scenes.NAME]"))
         protocol.views.push_back(parseView(name, std::move(table)));
     for (auto& [name, table] : root.tables("levels", "at least one level, [levels.NAME]"))
         protocol.levels.push_back(parseLevel(name, std::move(table)));
-    for (auto& [name, table] : root.tables("techniques", "at least one technique, "
-                                                         "[techniques.NAME]"))
-        protocol.techniques.push_back(parseTechnique(name, std::move(table)));
+    Techniques techniques = parseTechniques(root);
+    protocol.techniques = std::move(techniques.techniques);
+    includedSha256 = techniques.includedSha256;
     parseConditions(root, protocol);
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
@@ -344,22 +248,12 @@ const TechniqueSetting& Protocol::technique(const std::string& wanted) const {
     return find(techniques, wanted);
 }
 
-const std::vector<std::string>& normalsNames() {
-    static const std::vector<std::string> names{"face", "smooth", "mapped"};
-    return names;
-}
-
 Protocol parseProtocol(const std::string& text, const std::string& file) {
-    try {
-        const toml::table table = toml::parse(text, file);
-        Protocol protocol = parseRoot(TomlTable(table, file, ""));
-        protocol.sha256 = sha256(text);
-        return protocol;
-    } catch (const toml::parse_error& error) {
-        const toml::source_position at = error.source().begin;
-        throw Error({file, static_cast<int>(at.line), static_cast<int>(at.column), {}},
-                    fmt::format("expected TOML: {}", error.description()));
-    }
+    const toml::table table = parseToml(text, file);
+    std::string includedSha256;
+    Protocol protocol = parseRoot(TomlTable(table, file, ""), includedSha256);
+    protocol.sha256 = studySha256(text, includedSha256);
+    return protocol;
 }
 
 Protocol readProtocol(const std::filesystem::path& path) {

@@ -155,7 +155,7 @@ struct Protocol {
     Simulation simulation;
 
     std::filesystem::path path; // where it was read; "" when parsed from text
-    std::string sha256;         // of the file's bytes
+    std::string sha256;         // of the file's bytes, and of those of files it includes
 
     // By name; the parser has made sure that those of a condition exist.
     const View& view(const std::string& name) const;

@@ -137,6 +137,34 @@ std::array<double, 3> TomlTable::triple(std::string_view key, double low, double
     return result;
 }
 
+std::vector<PlacedText> TomlTable::texts(std::string_view key, std::string_view expected) {
+    const toml::node* found = node(key);
+    const toml::array* array = found ? found->as_array() : nullptr;
+    if (found && (!array || array->empty()))
+        wrong(key, *found, expected);
+    std::vector<PlacedText> result;
+    for (std::size_t i = 0; array && i < array->size(); ++i) {
+        const toml::node& item = *array->get(i);
+        const std::string itemKey = fmt::format("{}[{}]", key, i + 1);
+        if (!item.is_string())
+            wrong(itemKey, item, "a text in quotes");
+        result.push_back({*item.value<std::string>(), placeOf(item, pathOf(itemKey))});
+    }
+    return result;
+}
+
+std::vector<double> TomlTable::numbers(std::string_view key, double low, double high) {
+    const toml::node* found = node(key);
+    const toml::array* array = found ? found->as_array() : nullptr;
+    if (found && (!array || array->empty()))
+        wrong(key, *found, fmt::format("numbers from {} to {}", low, high));
+    std::vector<double> result;
+    for (std::size_t i = 0; array && i < array->size(); ++i)
+        result.push_back(
+            bounded(fmt::format("{}[{}]", key, i + 1), *array->get(i), low, high, "a number"));
+    return result;
+}
+
 std::optional<TomlTable> TomlTable::table(std::string_view key) {
     const toml::node* found = node(key);
     if (!found)

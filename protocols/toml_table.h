@@ -12,6 +12,11 @@
 
 namespace obscura {
 
+struct PlacedText {
+    std::string text;
+    Place place;
+};
+
 // A TOML table being read: every look-up names its key, type and range, and remembers the key, so
 // that finish() can report the first key nobody asked for with the nearest one that exists. All
 // errors give file, line, column, what was expected and what was found.
@@ -39,6 +44,9 @@ class TomlTable {
     std::vector<std::pair<std::string, TomlTable>> tables(std::string_view key,
                                                           std::string_view expected);
     std::vector<TomlTable> list(std::string_view key, std::string_view expected);
+    // Lists of values, not empty; absent means none.
+    std::vector<PlacedText> texts(std::string_view key, std::string_view expected);
+    std::vector<double> numbers(std::string_view key, double low, double high);
     const toml::node* node(std::string_view key);
 
     void finish() const;

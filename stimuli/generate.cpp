@@ -45,18 +45,6 @@ bool intact(const fs::path& folder, const FileRecord& file) {
     return fs::exists(folder / file.path) && sha256File(folder / file.path) == file.sha256;
 }
 
-// What a killed run was writing when it died: hidden names of unfinishedPath(), never published.
-void removeUnfinishedFiles(const fs::path& folder) {
-    if (!fs::exists(folder))
-        return;
-    std::vector<fs::path> hidden;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file() && entry.path().filename().string().starts_with('.'))
-            hidden.push_back(entry.path());
-    for (const fs::path& path : hidden)
-        fs::remove(path);
-}
-
 // Whether an earlier record proves that the image need not be rendered.
 bool proves(const ImageRecord& earlier, const Recipe& recipe, const fs::path& folder, bool layers) {
     if (earlier.recipe.sha256() != recipe.sha256() || !intact(folder, earlier.image) ||

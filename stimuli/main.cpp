@@ -1,5 +1,6 @@
 #include "protocols/progress.h"
 #include "stimuli/generate.h"
+#include "stimuli/match_files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -49,14 +50,75 @@ void report(const GenerateResult& result, const fs::path& folder) {
                    pair.b.meanOcclusion, pair.a.inputsSha256);
 }
 
-int run(int argc, char** argv) {
-    fs::path protocolPath, out;
+// A line for each technique: what fitting it was worth, on views that it was not fitted on.
+void report(const MatchStudy& study, const MatchResult& result, const fs::path& folder) {
+    for (const std::string& warning : result.warnings)
+        fmt::print(stderr, "warning: {}\n", warning);
+    const std::string target =
+        study.partner.empty() ? truthNames()[static_cast<std::size_t>(study.truth)] : study.partner;
+    fmt::print("{} techniques ({} known from before), in {}; on test views against {}:\n",
+               result.techniques.size(), result.kept, folder.string(), target);
+    fmt::print("{:<28} {:>8} {:>8} {:>8} {:>9} {:>7}  {}\n", "", "raw RMSE", "matched", "bias",
+               "bias-free", "SSIM", "settings");
+    for (const MatchedTechnique& technique : result.techniques) {
+        const auto raw = summaryOf(technique.rows, target, "raw"),
+                   fitted = summaryOf(technique.rows, target, "matched");
+        std::string settings = technique.note;
+        for (const auto& [name, value] : technique.fitted)
+            settings += fmt::format("{}{} {}", settings.empty() ? "" : ", ", name, value);
+        if (raw.views > 0)
+            fmt::print("{:<28} {:8.4f} {:8.4f} {:+8.4f} {:9.4f} {:7.4f}  {}\n",
+                       technique.setting.name, raw.rmse, fitted.rmse, fitted.bias, fitted.biasFree,
+                       fitted.ssim, settings);
+        else
+            fmt::print("{:<28} {}\n", technique.setting.name, settings);
+    }
+}
+
+struct Options {
+    fs::path file, out;
     std::string device;
+    Folders folders;
+};
+
+int runMatch(const Options& options, double radius) {
+    MatchStudy study = readMatchStudy(options.file);
+    if (radius > 0)
+        study = atRadius(study, radius);
+    const fs::path out = options.out.empty() ? fs::path("match-" + study.name) : options.out;
+    const gl::Context context(options.device);
+    std::optional<Progress> progress;
+    const MatchResult result = match(study, options.folders, out, context.driver(),
+                                     [&](double done, double total, const std::string& note) {
+                                         if (!progress)
+                                             progress.emplace("matching", total);
+                                         progress->update(done, note);
+                                     });
+    progress.reset();
+    report(study, result, out);
+    return 0;
+}
+
+int run(int argc, char** argv) {
+    Options options;
+    fs::path &protocolPath = options.file, &out = options.out;
+    std::string& device = options.device;
     const char* environment = std::getenv("OBSCURA_SCENES");
-    Folders folders{environment ? environment : ".", {}};
+    options.folders.scenes = environment ? environment : ".";
+    Folders& folders = options.folders;
     bool layers = false, check = false, verifyOnly = false;
-    CLI::App app("obscura-stimuli: makes the image pairs of a protocol");
-    app.add_option("protocol", protocolPath, "study, TOML")->required();
+    double radius = 0;
+    CLI::App app("obscura-stimuli: makes the image pairs of a protocol, or matches techniques");
+    CLI::App* matching = app.add_subcommand(
+        "match", "fit techniques to a reference and measure their errors on other views");
+    matching->add_option("study", options.file, "techniques and views, TOML")->required();
+    matching->add_option("--out", out, "result folder; default match-NAME");
+    matching->add_option("--scenes", folders.scenes,
+                         "folder of glTF scenes; default OBSCURA_SCENES");
+    matching->add_option("--device", device, "render with this device of obscura-render --devices");
+    matching->add_option("--radius", radius, "only this one of the study's radii, metres")
+        ->check(CLI::PositiveNumber);
+    app.add_option("protocol", protocolPath, "study, TOML");
     app.add_option("--out", out, "stimulus folder; default stimuli-NAME");
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
     app.add_option("--device", device, "render with this device of obscura-render --devices");
@@ -64,7 +126,13 @@ int run(int argc, char** argv) {
     app.add_flag("--check", check, "check the protocol, render nothing");
     app.add_flag("--verify", verifyOnly,
                  "render every image of the folder again and compare the bytes, write nothing");
+    app.callback([&] {
+        if (!matching->parsed() && protocolPath.empty())
+            throw CLI::RequiredError("protocol");
+    });
     CLI11_PARSE(app, argc, argv);
+    if (matching->parsed())
+        return runMatch(options, radius);
 
     const Protocol protocol = readProtocol(protocolPath);
     folders.protocol = protocolPath.parent_path();

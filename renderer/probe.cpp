@@ -1,0 +1,87 @@
+#include "renderer/probe.h"
+
+#include "renderer/gl/context.h"
+
+namespace obscura {
+
+namespace {
+
+Level whiteLight() {
+    Level level;
+    level.ambient = Vec3{1, 1, 1};
+    return level;
+}
+
+} // namespace
+
+// What a technique sees, with or without a guard band around the image.
+struct Probe::Sight {
+    gl::UniformBuffer frame;
+    GBuffer gbuffer;
+    LightBuffers light;
+};
+
+Subject::Subject(const Scene& scene)
+    : scene_(scene), lighting_(whiteLight(), scene_, std::filesystem::path()) {}
+
+Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
+             std::uint64_t seed)
+    : subject_(subject), camera_(camera), width_(width), height_(height), kind_(kind), seed_(seed),
+      surfaces_(surfacesOf(subject.scene(), subject.pass(),
+                           makeFrame(camera, width, height, subject.scene().bounds(), seed),
+                           kind)) {
+    for (int y = height - 1; y >= 0; --y)
+        for (int x = 0; x < width; ++x)
+            shown_.push_back(!surfaces_.empty(surfaces_.index(x, y)));
+}
+
+Probe::~Probe() = default;
+Probe::Probe(Probe&&) noexcept = default;
+
+const Probe::Sight& Probe::sight(int guard) const {
+    std::unique_ptr<Sight>& known = sights_[guard];
+    if (!known) {
+        const int width = width_ + 2 * guard, height = height_ + 2 * guard;
+        const Frame frame =
+            makeFrame(camera_, width_, height_, subject_.scene().bounds(), seed_, {0, 0}, guard);
+        known.reset(new Sight{frameBuffer(frame), GBuffer(width, height, {true, false, kind_}),
+                              LightBuffers(width, height, false)});
+        bindFrame(known->frame);
+        subject_.pass().draw(subject_.scene(), frame, known->gbuffer);
+        subject_.lighting().draw(known->gbuffer, known->light);
+    }
+    return *known;
+}
+
+OcclusionPasses Probe::passesFor(const Settings& settings) const {
+    const int guard = guardPixels(settings, height_);
+    return OcclusionPasses(settings, width_ + 2 * guard, height_ + 2 * guard);
+}
+
+Image Probe::visibility(const Settings& settings) const {
+    return visibility(settings, passesFor(settings));
+}
+
+Image Probe::visibility(const Settings& settings, const OcclusionPasses& passes) const {
+    Image image{width_, height_, 1, {}};
+    if (settings.technique().passes.empty()) {
+        image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
+                            1.0f);
+        return image;
+    }
+    const int guard = guardPixels(settings, height_), width = width_ + 2 * guard;
+    const Sight& seen = sight(guard);
+    bindFrame(seen.frame);
+    const gl::Texture& texture =
+        passes.visibility({seen.gbuffer, &seen.light, &subject_.lighting(), nullptr});
+    const std::vector<float> values =
+        gl::readFloats(texture, width, height_ + 2 * guard, gl::Format::r32f);
+    for (int y = guard + height_ - 1; y >= guard; --y) {
+        const auto row = values.begin() + y * width + guard;
+        image.pixels.insert(image.pixels.end(), row, row + width_);
+    }
+    gl::throwMessages();
+    return image;
+}
+
+} // namespace obscura

@@ -1,0 +1,65 @@
+#pragma once
+
+#include "renderer/ao.h"
+#include "renderer/surfaces.h"
+
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace obscura {
+
+// A scene with all that techniques may read of it, whatever the camera. Its light is constant and
+// white, so that those which read light see only geometry.
+class Subject {
+  public:
+    explicit Subject(const Scene& scene);
+
+    const GpuScene& scene() const { return scene_; }
+    const GBufferPass& pass() const { return pass_; }
+    const Lighting& lighting() const { return lighting_; }
+
+  private:
+    GpuScene scene_;
+    GBufferPass pass_;
+    Lighting lighting_;
+};
+
+// One view of a subject, drawn once, to run techniques on again and again; what matching and
+// benches measure with. Without anti-aliasing: a pixel is the surface point at its centre.
+class Probe {
+  public:
+    // The subject must outlive the probe.
+    Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
+          std::uint64_t seed);
+    ~Probe();
+    Probe(Probe&&) noexcept;
+
+    // Visibility as the technique's last pass leaves it: 1 channel, top row first. The passes may
+    // be shared by probes of one size: those of passesFor(settings).
+    Image visibility(const Settings& settings) const;
+    Image visibility(const Settings& settings, const OcclusionPasses& passes) const;
+    OcclusionPasses passesFor(const Settings& settings) const;
+
+    // For references to trace from.
+    const Surfaces& surfaces() const { return surfaces_; }
+    // Where a surface shows, rows as in visibility(): others are open by definition, and no error
+    // is measured there.
+    const std::vector<bool>& shown() const { return shown_; }
+
+  private:
+    struct Sight;
+    const Sight& sight(int guard) const;
+
+    const Subject& subject_;
+    Camera camera_;
+    int width_, height_;
+    Normals kind_;
+    std::uint64_t seed_;
+    Surfaces surfaces_;
+    std::vector<bool> shown_;
+    mutable std::map<int, std::unique_ptr<Sight>>
+        sights_; // by guard pixels, drawn when first asked
+};
+
+} // namespace obscura

@@ -1,0 +1,480 @@
+#include "stimuli/match.h"
+
+#include "protocols/files.h"
+#include "protocols/version.h"
+#include "renderer/probe.h"
+#include "renderer/reference.h"
+#include "stimuli/fit.h"
+#include "stimuli/match_files.h"
+#include "stimuli/match_sheet.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <set>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// The names under which results stand in tables.
+std::string nameOf(Truth truth) { return truthNames()[static_cast<std::size_t>(truth)]; }
+std::string targetOf(const MatchStudy& study) {
+    return study.partner.empty() ? nameOf(study.truth) : study.partner;
+}
+
+// Truths to be made: those fitted to, and those that only score.
+std::vector<Truth> truthsOf(const MatchStudy& study, bool train) {
+    std::vector<Truth> truths;
+    if (study.partner.empty())
+        truths.push_back(study.truth);
+    if (!train)
+        for (const Truth truth : study.scores)
+            if (std::find(truths.begin(), truths.end(), truth) == truths.end())
+                truths.push_back(truth);
+    return truths;
+}
+
+// Seconds on two cores of software rendering, roughly: shares of the progress line.
+double pixelsOf(const ImageSize& size) { return 1.0 * size.width * size.height; }
+double renderCost(const ImageSize& size) { return 0.2 + pixelsOf(size) * 0.7e-6; }
+double truthCost(const ImageSize& size, int rays) { return pixelsOf(size) * rays / 3e6; }
+
+class Effort {
+  public:
+    explicit Effort(const MatchProgress& progress) : progress_(progress) {}
+    void plan(double cost) { total_ += cost; }
+    void spend(double cost, const std::string& note) {
+        done_ += cost;
+        progress_(done_, total_, note);
+    }
+    double done() const { return done_; }
+    void jumpTo(double done) { done_ = done; } // what was planned for a part may not all be needed
+
+  private:
+    const MatchProgress& progress_;
+    double done_ = 0, total_ = 0;
+};
+
+// One view, and what techniques are compared with there, by name.
+struct Case {
+    View view;
+    bool train = false;
+    const Probe* probe = nullptr;
+    std::map<std::string, Image> targets;
+};
+
+// The one place that knows how each truth is made.
+Image truthImage(Truth truth, const RayTracer& tracer, const Probe& probe, const View& view,
+                 const MatchStudy& study, const TraceProgress& progress) {
+    TraceSettings settings;
+    settings.radius = view.radius;
+    settings.rays = study.rays;
+    settings.seed = study.seed;
+    switch (truth) {
+    case Truth::cosine:
+        settings.integral = Integral::cosine;
+        break;
+    case Truth::uniform:
+        settings.integral = Integral::uniform;
+        break;
+    case Truth::falloff:
+        settings.integral = Integral::falloff;
+        break;
+    case Truth::depth:
+        throw Error("the depth-buffer reference is not there yet");
+    }
+    return tracer.trace(probe.surfaces(), settings, progress).visibility;
+}
+
+double significant(double value) { // as the fragment gives it
+    return std::stod(fmt::format("{:.4g}", value));
+}
+
+using Values = std::map<std::string, double>;
+
+Settings settingsAt(const TechniqueSetting& setting, const View& view, const Values& values) {
+    Settings settings = settingsOf(setting, view.radius);
+    for (const auto& [name, value] : values)
+        if (settings.has(name))
+            settings.set(name, value);
+    return settings;
+}
+
+const Parameter* parameterOf(const Settings& settings, std::string_view name) {
+    for (const Parameter& parameter : settings.technique().parameters)
+        if (parameter.name == name)
+            return &parameter;
+    return nullptr;
+}
+
+// Which of the three common parameters may be fitted, and between which bounds: those that the
+// technique's row has and the study does not give.
+class Freedom {
+  public:
+    Freedom(const TechniqueSetting& setting, const Settings& settings)
+        : setting_(setting), settings_(settings) {}
+
+    std::optional<Range> range(std::string_view name, double low, double high) const {
+        const Parameter* parameter = parameterOf(settings_, name);
+        const bool given = std::any_of(setting_.settings.begin(), setting_.settings.end(),
+                                       [&](const Setting& each) { return each.name == name; });
+        if (!parameter || given)
+            return std::nullopt;
+        return Range{std::max(low, static_cast<double>(parameter->low)),
+                     std::min(high, static_cast<double>(parameter->high))};
+    }
+    std::optional<Range> multiplier() const { return range("radiusMultiplier", 1.0 / 32, 32); }
+    std::optional<Range> intensity() const { return range("intensity", 0.01, 100); }
+    std::optional<Range> power() const { return range("power", 0.1, 10); }
+    double start(std::string_view name) const {
+        return settings_.has(name) ? static_cast<double>(settings_[name]) : 1;
+    }
+
+  private:
+    const TechniqueSetting& setting_;
+    const Settings& settings_;
+};
+
+// Where the last pass would clamp, occlusion is scaled down first: a raw visibility down to
+// 1 - 1 / probe is told apart, at an eighth of a half-float's precision.
+constexpr double probeIntensity = 0.125;
+
+class Matching {
+  public:
+    Matching(const MatchStudy& study, const Folders& folders, const fs::path& folder,
+             const gl::Driver& driver, const MatchProgress& progress)
+        : study_(study), folders_(folders), folder_(folder), driver_(driver), hashes_(folders),
+          finished_(folder / "finished"), effort_(progress) {}
+
+    MatchResult run();
+
+  private:
+    void plan();
+    void look();
+    void lookAt(const std::string& sceneSha256);
+    const Probe& probe(const Subject& subject, const View& view, const ImageSize& size);
+    void addTruths(const RayTracer& tracer, Case& at);
+    void addPartner();
+    std::string keyOf(const TechniqueSetting& setting);
+    MatchedTechnique matched(const TechniqueSetting& setting);
+    FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, double multiplier);
+    Values fit(const TechniqueSetting& setting, std::string& note);
+    std::vector<MatchRow> measure(const TechniqueSetting& setting, const Values& values,
+                                  const std::string& stage);
+    std::vector<MatchRow> truthRows() const;
+    Image8 sheet(const MatchResult& result);
+    const ImageSize& size(const Case& at) const {
+        return at.train ? study_.training : study_.image;
+    }
+    double techniqueCost() const;
+
+    const MatchStudy& study_;
+    const Folders& folders_;
+    const fs::path& folder_;
+    const gl::Driver& driver_;
+    SceneHashes hashes_;
+    FinishedTechniques finished_;
+    Effort effort_;
+    std::vector<std::unique_ptr<Subject>> subjects_;
+    std::map<std::string, std::unique_ptr<Probe>> probes_; // by camera's name and size
+    std::vector<Case> cases_;
+    std::vector<std::string> keys_; // of the techniques
+    MatchResult result_;
+};
+
+double Matching::techniqueCost() const {
+    const auto train = static_cast<double>(study_.train.size()),
+               test = static_cast<double>(study_.test.size());
+    return (fitMultiplierEvaluations + 2) * train * renderCost(study_.training) +
+           2 * test * renderCost(study_.image);
+}
+
+// Everything that can be wrong with the study shows here, before the first ray.
+void Matching::plan() {
+    for (const bool train : {true, false})
+        for (const View& view : train ? study_.train : study_.test) {
+            cases_.push_back({view, train, nullptr, {}});
+            try {
+                result_.sceneSha256[view.file.empty() ? view.builtin : view.file] =
+                    hashes_.of(view);
+            } catch (const Error& error) {
+                throw Error(error.place().file.empty() ? view.place : Place{}, error.what());
+            }
+            effort_.plan(static_cast<double>(truthsOf(study_, train).size()) *
+                         truthCost(size(cases_.back()), study_.rays));
+        }
+    for (const TechniqueSetting& setting : study_.techniques) {
+        const Settings settings = settingsOf(setting, study_.train.front().radius);
+        if (setting.name == study_.partner && settings.technique().passes.empty())
+            throw Error(setting.place, "expected a partner that darkens, found one without passes");
+        keys_.push_back(keyOf(setting));
+        if (!finished_.find(keys_.back()))
+            effort_.plan(techniqueCost());
+    }
+}
+
+const Probe& Matching::probe(const Subject& subject, const View& view, const ImageSize& size) {
+    std::unique_ptr<Probe>& known =
+        probes_[fmt::format("{} {} {}", view.name, size.width, size.height)];
+    if (!known)
+        known = std::make_unique<Probe>(subject, view.camera, size.width, size.height,
+                                        study_.normals, study_.seed);
+    return *known;
+}
+
+void Matching::addTruths(const RayTracer& tracer, Case& at) {
+    for (const Truth truth : truthsOf(study_, at.train)) {
+        const double before = effort_.done(), cost = truthCost(size(at), study_.rays);
+        const std::string note = fmt::format("{} reference of {}", nameOf(truth), at.view.name);
+        at.targets[nameOf(truth)] =
+            truthImage(truth, tracer, *at.probe, at.view, study_, [&](double share) {
+                effort_.jumpTo(before);
+                effort_.spend(share * cost, note);
+            });
+        effort_.jumpTo(before + cost);
+    }
+}
+
+void Matching::lookAt(const std::string& sceneSha256) {
+    std::unique_ptr<RayTracer> tracer;
+    for (Case& at : cases_) {
+        if (hashes_.of(at.view) != sceneSha256)
+            continue;
+        if (!tracer) {
+            const Scene scene = loadSceneOf(at.view, folders_);
+            for (const std::string& warning : scene.warnings)
+                result_.warnings.push_back(fmt::format("scene \"{}\": {}", at.view.name, warning));
+            subjects_.push_back(std::make_unique<Subject>(scene));
+            tracer = std::make_unique<RayTracer>(scene);
+        }
+        at.probe = &probe(*subjects_.back(), at.view, size(at));
+        addTruths(*tracer, at);
+    }
+}
+
+// One scene after the other, so that only one is held by the ray tracer.
+void Matching::look() {
+    std::set<std::string> seen;
+    for (const auto& [name, hash] : result_.sceneSha256)
+        if (seen.insert(hash).second)
+            lookAt(hash);
+}
+
+void Matching::addPartner() {
+    for (const TechniqueSetting& setting : study_.techniques)
+        if (setting.name == study_.partner)
+            for (Case& at : cases_)
+                at.targets[study_.partner] =
+                    at.probe->visibility(settingsOf(setting, at.view.radius));
+}
+
+// All that a technique's result depends on: the recipe of each view, the truths, and this method.
+std::string Matching::keyOf(const TechniqueSetting& setting) {
+    Level level;
+    level.ambient = Vec3{1, 1, 1};
+    Sha256 hash;
+    const auto add = [&](const TechniqueSetting& each) {
+        for (const Case& at : cases_) {
+            const Settings settings = settingsOf(each, at.view.radius);
+            Recipe recipe;
+            recipe.width = size(at).width;
+            recipe.height = size(at).height;
+            recipe.seed = study_.seed;
+            recipe.view = at.view;
+            recipe.view.name.clear();
+            recipe.level = level;
+            recipe.normals = study_.normals;
+            recipe.sceneSha256 = hashes_.of(at.view);
+            recipe.technique = std::string(settings.technique().id);
+            recipe.settings = settings.named();
+            recipe.shaderSha256 = shaderSha256(settings, level);
+            recipe.programVersion = std::string(version());
+            recipe.glVendor = driver_.vendor;
+            recipe.glRenderer = driver_.renderer;
+            recipe.glVersion = driver_.version;
+            hash.add(fmt::format("{} {} {}\n", at.train, at.view.name, recipe.json()));
+        }
+        for (const Setting& given : each.settings) // what is given is not fitted
+            hash.add(given.name + "\n");
+    };
+    hash.add(fmt::format("match 1\n{} {}\n", setting.name, study_.rays));
+    for (const bool train : {true, false})
+        for (const Truth truth : truthsOf(study_, train))
+            hash.add(nameOf(truth) + "\n");
+    add(setting);
+    for (const TechniqueSetting& partner : study_.techniques)
+        if (partner.name == study_.partner)
+            add(partner);
+    return hash.hex();
+}
+
+FittedRemap Matching::fitAt(const TechniqueSetting& setting, const Freedom& freedom,
+                            double multiplier) {
+    Comparison comparison;
+    std::map<double, OcclusionPasses> passes; // by radius: shaders take long to compile
+    double probe = 1;
+    for (const Case& at : cases_) {
+        if (!at.train)
+            continue;
+        Settings settings =
+            settingsAt(setting, at.view, {{"radiusMultiplier", multiplier}, {"power", 1}});
+        if (settings.has("intensity"))
+            settings.set("intensity", probe = probeIntensity);
+        auto known = passes.find(at.view.radius);
+        if (known == passes.end())
+            known = passes.emplace(at.view.radius, at.probe->passesFor(settings)).first;
+        comparison.add(at.probe->visibility(settings, known->second), probe,
+                       at.targets.at(targetOf(study_)), at.probe->shown());
+        effort_.spend(renderCost(study_.training), setting.name);
+    }
+    const Tunable tunable{
+        {freedom.start("intensity"), freedom.start("power")}, freedom.intensity(), freedom.power()};
+    return fitRemap(comparison, tunable,
+                    study_.partner.empty() ? Criterion::leastSquares : Criterion::equalMean);
+}
+
+// The values that were fitted, rounded as the fragment gives them.
+Values Matching::fit(const TechniqueSetting& setting, std::string& note) {
+    const Settings settings = settingsOf(setting, study_.train.front().radius);
+    const Freedom freedom(setting, settings);
+    if (setting.name == study_.partner) {
+        note = "the partner: as it is";
+        return {};
+    }
+    if (!freedom.multiplier() && !freedom.intensity() && !freedom.power()) {
+        note = "has nothing to fit";
+        return {};
+    }
+    std::map<double, FittedRemap> tried;
+    const auto error = [&](double multiplier) {
+        const auto found = tried.find(multiplier);
+        return found != tried.end()
+                   ? found->second.error
+                   : (tried[multiplier] = fitAt(setting, freedom, multiplier)).error;
+    };
+    double best = freedom.start("radiusMultiplier");
+    if (const auto range = freedom.multiplier())
+        best = fitMultiplier(error, best, *range);
+    error(best);
+    Values values;
+    const auto put = [&](const char* name, const std::optional<Range>& range, double value) {
+        if (!range)
+            return;
+        values[name] = std::clamp(significant(value), range->low, range->high);
+        if (value < range->low * 1.001 || value > range->high * 0.999)
+            note += fmt::format("{}{} ended at its bound", note.empty() ? "" : "; ", name);
+    };
+    put("radiusMultiplier", freedom.multiplier(), best);
+    put("intensity", freedom.intensity(), tried[best].remap.intensity);
+    put("power", freedom.power(), tried[best].remap.power);
+    return values;
+}
+
+std::vector<MatchRow> Matching::measure(const TechniqueSetting& setting, const Values& values,
+                                        const std::string& stage) {
+    std::vector<MatchRow> rows;
+    for (const Case& at : cases_) {
+        const Image image = at.probe->visibility(settingsAt(setting, at.view, values));
+        for (const auto& [reference, target] : at.targets)
+            rows.push_back({setting.name, at.view.name, at.view.radius, at.train, reference, stage,
+                            imageError(image, target, at.probe->shown())});
+        effort_.spend(renderCost(size(at)), setting.name);
+    }
+    return rows;
+}
+
+MatchedTechnique Matching::matched(const TechniqueSetting& setting) {
+    MatchedTechnique technique;
+    if (settingsOf(setting, 1).technique().reads & rays) {
+        technique.note = "traces rays itself: it is the reference, and not matched";
+        return technique;
+    }
+    technique.fitted = fit(setting, technique.note);
+    for (const bool raw : {true, false}) {
+        const auto rows =
+            measure(setting, raw ? Values{} : technique.fitted, raw ? "raw" : "matched");
+        technique.rows.insert(technique.rows.end(), rows.begin(), rows.end());
+    }
+    return technique;
+}
+
+// What is lost before any technique begins: other truths against the one fitted to, on test views.
+std::vector<MatchRow> Matching::truthRows() const {
+    std::vector<MatchRow> rows;
+    for (const Case& at : cases_)
+        for (const auto& [name, image] : at.targets)
+            if (const Image& target = at.targets.at(targetOf(study_)); !at.train)
+                rows.push_back({name + " reference", at.view.name, at.view.radius, at.train,
+                                targetOf(study_), "raw",
+                                imageError(image, target, at.probe->shown())});
+    return rows;
+}
+
+Image8 Matching::sheet(const MatchResult& result) {
+    const Case& at =
+        *std::find_if(cases_.begin(), cases_.end(), [](const Case& each) { return !each.train; });
+    const Image& target = at.targets.at(targetOf(study_));
+    std::vector<MatchPictures> pictures;
+    for (const MatchedTechnique& technique : result.techniques) {
+        if (technique.rows.empty())
+            continue;
+        const auto render = [&](const Values& values) {
+            return at.probe->visibility(settingsAt(technique.setting, at.view, values));
+        };
+        MatchPictures row{{}, render({}), render(technique.fitted)};
+        const ImageError raw = imageError(row.raw, target, at.probe->shown()),
+                         matched = imageError(row.matched, target, at.probe->shown());
+        row.title = fmt::format("{}: RMSE {:.3f} raw, {:.3f} matched ({:.3f} without bias), SSIM "
+                                "{:.3f}; mean occlusion {:.3f}",
+                                technique.setting.name, raw.rmse, matched.rmse, matched.biasFree,
+                                matched.ssim, matched.meanOcclusion);
+        for (const auto& [name, value] : technique.fitted)
+            row.title += fmt::format(", {} {}", name, value);
+        pictures.push_back(std::move(row));
+    }
+    return matchSheet(fmt::format("{}: test view {}, radius {:g} m, compared with {}", study_.name,
+                                  at.view.name, at.view.radius, targetOf(study_)),
+                      target, pictures);
+}
+
+MatchResult Matching::run() {
+    removeUnfinishedFiles(folder_);
+    removeUnfinishedFiles(folder_ / "finished");
+    plan();
+    look();
+    addPartner();
+    result_.truths = truthRows();
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        const TechniqueSetting& setting = study_.techniques[i];
+        auto known = finished_.find(keys_[i]);
+        result_.kept += known.has_value();
+        if (!known) {
+            const double before = effort_.done();
+            effort_.spend(0, setting.name);
+            known = matched(setting);
+            finished_.add(keys_[i], *known);
+            effort_.jumpTo(before + techniqueCost());
+        }
+        known->setting = setting;
+        result_.techniques.push_back(std::move(*known));
+    }
+    effort_.spend(0, "writing");
+    writeFile(folder_ / "match.csv", matchTable(result_));
+    writePng(folder_ / "match.png", sheet(result_));
+    writeFile(folder_ / "matched.toml", matchedFragment(study_, result_));
+    return std::move(result_);
+}
+
+} // namespace
+
+MatchResult match(const MatchStudy& study, const Folders& folders, const fs::path& folder,
+                  const gl::Driver& driver, const MatchProgress& progress) {
+    return Matching(study, folders, folder, driver, progress).run();
+}
+
+} // namespace obscura

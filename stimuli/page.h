@@ -1,0 +1,35 @@
+#pragma once
+
+#include "renderer/image.h"
+
+#include <memory>
+#include <string>
+
+namespace obscura {
+
+// A white page of pictures and words (Cairo and Pango).
+class Page {
+  public:
+    Page(int width, int height);
+    ~Page();
+
+    // Pango markup; the size is in pixels.
+    void text(int x, int y, const std::string& markup, int size);
+    void image(int x, int y, const Image8& image); // 3 channels
+    // White visibility on white paper needs an edge.
+    void frame(int x, int y, int width, int height);
+
+    Image8 finish() const;
+
+  private:
+    struct Canvas;
+    std::unique_ptr<Canvas> canvas_;
+};
+
+// Box-filtered on code values: a thumbnail to recognise, not to measure.
+Image8 shrunk(const Image8& from, int width, int height);
+
+// Text that stands for itself in markup.
+std::string escaped(const std::string& text);
+
+} // namespace obscura
