@@ -20,6 +20,9 @@ constexpr std::size_t binCount = 16384;
 // An unmet mean must cost more than any gain in squares, yet leave a slope towards it.
 constexpr double meanPenalty = 100;
 
+// Errors that differ by less are the same: where the data do not say, what was given stays.
+constexpr double tie = 1e-9;
+
 // What a remap is fitted by: logarithms of the values that are free.
 class RemapObjective {
   public:
@@ -100,8 +103,7 @@ class RemapObjective {
     std::optional<Free> solved_;
 };
 
-// The best point of a grid over the bounds, and the start, which wins a tie: where the data do not
-// say, what was given stays.
+// The best point of a grid over the bounds, and the start.
 std::vector<double> coarsely(const RemapObjective& objective) {
     constexpr int steps = 9;
     const auto low = objective.bounds(&Range::low), high = objective.bounds(&Range::high);
@@ -115,7 +117,7 @@ std::vector<double> coarsely(const RemapObjective& objective) {
         int digits = point;
         for (std::size_t i = 0; i < at.size(); ++i, digits /= steps)
             at[i] += (high[i] - low[i]) * (digits % steps) / (steps - 1);
-        if (const double error = objective(at); error < least - 1e-9) {
+        if (const double error = objective(at); error < least - tie) {
             least = error;
             best = at;
         }
@@ -185,13 +187,19 @@ FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Crite
                 return (*static_cast<RemapObjective*>(data))(x);
             },
             &objective);
-        search.set_lower_bounds(objective.bounds(&Range::low));
-        search.set_upper_bounds(objective.bounds(&Range::high));
+        const auto low = objective.bounds(&Range::low), high = objective.bounds(&Range::high);
+        search.set_lower_bounds(low);
+        search.set_upper_bounds(high);
         search.set_initial_step(0.3);
         search.set_xtol_abs(1e-4);
         search.set_maxeval(500);
+        std::vector<double> moved = at;
+        for (std::size_t i = 0; i < at.size(); ++i) // a grid's end, rounded, may lie outside
+            moved[i] = std::clamp(at[i], low[i], high[i]);
         double error = 0;
-        search.optimize(at, error);
+        search.optimize(moved, error);
+        if (error < objective(at) - tie)
+            at = moved;
     }
     return {objective.remap(at), objective(at)};
 }
@@ -207,9 +215,11 @@ double fitMultiplier(const std::function<double(double)>& error, double start, R
                          error(std::clamp(start * std::exp2(octave), range.low, range.high));
     };
     const auto least = [&] {
-        return std::min_element(known.begin(), known.end(),
-                                [](const auto& a, const auto& b) { return a.second < b.second; })
-            ->first;
+        const auto nearer = [](const auto& a, const auto& b) { // the start wins a tie
+            return a.second < b.second - tie ||
+                   (a.second < b.second + tie && std::abs(a.first) < std::abs(b.first));
+        };
+        return std::min_element(known.begin(), known.end(), nearer)->first;
     };
     for (const double octave : {0, -1, 1, -2, 2})
         if (octave >= low && octave <= high)

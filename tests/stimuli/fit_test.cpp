@@ -105,9 +105,10 @@ TEST(FitRemap, MeetsAMeanExactly) {
     for (const double power : {0.5, 1.0, 2.0}) { // none of equal mean is nearer
         const FittedRemap other =
             fitRemap(comparison, {{1, power}, Range{0.01, 100}, {}}, Criterion::equalMean);
-        if (std::abs(comparison.meanDifference(other.remap)) < 1e-5)
+        if (std::abs(comparison.meanDifference(other.remap)) < 1e-5) {
             EXPECT_LE(comparison.meanSquare(fitted.remap),
                       comparison.meanSquare(other.remap) + 1e-6);
+        }
     }
 }
 
