@@ -1,5 +1,6 @@
 #include "protocols/progress.h"
 #include "renderer/builtin.h"
+#include "renderer/document.h"
 #include "renderer/reference_cache.h"
 #include "renderer/render.h"
 
@@ -15,7 +16,7 @@ using namespace obscura;
 namespace fs = std::filesystem;
 
 struct Options {
-    bool devices = false, list = false, layers = false;
+    bool devices = false, list = false, document = false, layers = false;
     std::string device, scene = "atrium", techniqueId = "none", level = "moderate", scenes;
     std::string recipe, describe, preset, normals = "smooth";
     std::vector<std::string> settings;
@@ -52,24 +53,6 @@ int printTechniques() {
     for (const Technique& row : techniques())
         fmt::print("{:<20} {}  [{}]\n", row.id, row.title, row.citation);
     return 0;
-}
-
-std::string_view spell(Unit unit) {
-    switch (unit) {
-    case Unit::metre:
-        return "m";
-    case Unit::ratio:
-        return "ratio";
-    case Unit::degree:
-        return "degrees";
-    case Unit::pixel:
-        return "pixels";
-    case Unit::count:
-        return "count";
-    case Unit::flag:
-        break;
-    }
-    return "0 or 1";
 }
 
 int printTechnique(const std::string& id) {
@@ -246,6 +229,7 @@ int run(int argc, char** argv) {
     app.add_flag("--devices", options.devices, "list the devices that can render, and stop");
     app.add_flag("--list", options.list, "list the techniques, and stop");
     app.add_option("--describe", options.describe, "print a technique's settings, and stop");
+    app.add_flag("--document", options.document, "print docs/techniques.md, and stop");
     app.add_option("--device", options.device, "render with this device of --devices");
     app.add_option("--scene", options.scene, "built-in scene or glTF file in the scenes folder")
         ->capture_default_str();
@@ -292,6 +276,10 @@ int run(int argc, char** argv) {
         return printDevices();
     if (options.list)
         return printTechniques();
+    if (options.document) {
+        fmt::print("{}", techniquesDocument());
+        return 0;
+    }
     if (!options.describe.empty())
         return printTechnique(options.describe);
     return options.reference.empty() ? render(options) : traceReference(options);
