@@ -54,11 +54,7 @@ void parseCriterion(TomlTable& root, MatchStudy& study) {
 std::vector<View> viewsOf(TomlTable& root, const char* key, const std::vector<View>& all,
                           const std::vector<double>& radii, std::set<std::string>& used) {
     std::vector<View> result;
-    const auto names = root.texts(key, "names of scenes");
-    if (names.empty())
-        throw Error(root.place(), fmt::format("expected \"{}\", a list of names of scenes under "
-                                              "[scenes], found nothing",
-                                              key));
+    const auto names = root.requiredTexts(key, "names of scenes under [scenes]");
     for (const PlacedText& name : names) {
         mustExist(name.place, name.text, all, "a scene under [scenes]");
         if (!used.insert(name.text).second)

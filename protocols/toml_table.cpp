@@ -51,7 +51,8 @@ void TomlTable::wrong(std::string_view key, const toml::node& found,
 }
 
 const toml::node* TomlTable::node(std::string_view key) {
-    asked_.emplace_back(key);
+    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end())
+        asked_.emplace_back(key);
     return table_->get(key);
 }
 
@@ -150,6 +151,13 @@ std::vector<PlacedText> TomlTable::texts(std::string_view key, std::string_view 
             wrong(itemKey, item, "a text in quotes");
         result.push_back({*item.value<std::string>(), placeOf(item, pathOf(itemKey))});
     }
+    return result;
+}
+
+std::vector<PlacedText> TomlTable::requiredTexts(std::string_view key, std::string_view expected) {
+    auto result = texts(key, expected);
+    if (result.empty())
+        missing(key, expected);
     return result;
 }
 

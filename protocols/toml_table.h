@@ -46,6 +46,7 @@ class TomlTable {
     std::vector<TomlTable> list(std::string_view key, std::string_view expected);
     // Lists of values, not empty; absent means none.
     std::vector<PlacedText> texts(std::string_view key, std::string_view expected);
+    std::vector<PlacedText> requiredTexts(std::string_view key, std::string_view expected);
     std::vector<double> numbers(std::string_view key, double low, double high);
     const toml::node* node(std::string_view key);
 

@@ -1,4 +1,5 @@
 #include "protocols/progress.h"
+#include "renderer/reference_cache.h"
 #include "stimuli/generate.h"
 #include "stimuli/match_files.h"
 
@@ -88,7 +89,7 @@ int runMatch(const Options& options, double radius) {
     const fs::path out = options.out.empty() ? fs::path("match-" + study.name) : options.out;
     const gl::Context context(options.device);
     std::optional<Progress> progress;
-    const MatchResult result = match(study, options.folders, out, context.driver(),
+    const MatchResult result = match(study, options.folders, out, defaultCache(), context.driver(),
                                      [&](double done, double total, const std::string& note) {
                                          if (!progress)
                                              progress.emplace("matching", total);

@@ -3,7 +3,7 @@
 #include "protocols/files.h"
 #include "protocols/version.h"
 #include "renderer/probe.h"
-#include "renderer/reference.h"
+#include "renderer/reference_cache.h"
 #include "stimuli/fit.h"
 #include "stimuli/match_files.h"
 #include "stimuli/match_sheet.h"
@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <set>
 
 namespace obscura {
@@ -44,20 +45,30 @@ double pixelsOf(const ImageSize& size) { return 1.0 * size.width * size.height; 
 double renderCost(const ImageSize& size) { return 0.2 + pixelsOf(size) * 0.7e-6; }
 double truthCost(const ImageSize& size, int rays) { return pixelsOf(size) * rays / 3e6; }
 
+// What is planned for a part of the work is its share of the line, whether all is needed or not.
 class Effort {
   public:
     explicit Effort(const MatchProgress& progress) : progress_(progress) {}
     void plan(double cost) { total_ += cost; }
-    void spend(double cost, const std::string& note) {
-        done_ += cost;
-        progress_(done_, total_, note);
+    void begin(double cost, const std::string& note) {
+        start_ = done_;
+        end_ = start_ + cost;
+        note_ = note;
+        spend(0);
     }
-    double done() const { return done_; }
-    void jumpTo(double done) { done_ = done; } // what was planned for a part may not all be needed
+    void spend(double cost) { tell(std::min(done_ + cost, end_)); }
+    void reach(double share) { tell(start_ + share * (end_ - start_)); }
+    void end() { tell(end_); }
 
   private:
+    void tell(double done) {
+        done_ = done;
+        progress_(done_, total_, note_);
+    }
+
     const MatchProgress& progress_;
-    double done_ = 0, total_ = 0;
+    std::string note_;
+    double start_ = 0, end_ = 0, done_ = 0, total_ = 0;
 };
 
 // One view, and what techniques are compared with there, by name.
@@ -68,27 +79,30 @@ struct Case {
     std::map<std::string, Image> targets;
 };
 
-// The one place that knows how each truth is made.
-Image truthImage(Truth truth, const RayTracer& tracer, const Probe& probe, const View& view,
-                 const MatchStudy& study, const TraceProgress& progress) {
-    TraceSettings settings;
-    settings.radius = view.radius;
-    settings.rays = study.rays;
-    settings.seed = study.seed;
-    switch (truth) {
-    case Truth::cosine:
-        settings.integral = Integral::cosine;
-        break;
-    case Truth::uniform:
-        settings.integral = Integral::uniform;
-        break;
-    case Truth::falloff:
-        settings.integral = Integral::falloff;
-        break;
-    case Truth::depth:
-        throw Error("the depth-buffer reference is not there yet");
+// A scene's triangles to trace, made when a truth is not in the cache.
+class LazyTracer {
+  public:
+    explicit LazyTracer(const Scene& scene) : scene_(scene) {}
+    const RayTracer& get() {
+        if (!tracer_)
+            tracer_.emplace(scene_);
+        return *tracer_;
     }
-    return tracer.trace(probe.surfaces(), settings, progress).visibility;
+
+  private:
+    const Scene& scene_;
+    std::optional<RayTracer> tracer_;
+};
+
+Integral integralOf(Truth truth) {
+    switch (truth) {
+    case Truth::uniform:
+        return Integral::uniform;
+    case Truth::falloff:
+        return Integral::falloff;
+    default:
+        return Integral::cosine;
+    }
 }
 
 double significant(double value) { // as the fragment gives it
@@ -147,9 +161,9 @@ constexpr double probeIntensity = 0.125;
 class Matching {
   public:
     Matching(const MatchStudy& study, const Folders& folders, const fs::path& folder,
-             const gl::Driver& driver, const MatchProgress& progress)
-        : study_(study), folders_(folders), folder_(folder), driver_(driver), hashes_(folders),
-          finished_(folder / "finished"), effort_(progress) {}
+             const fs::path& cache, const gl::Driver& driver, const MatchProgress& progress)
+        : study_(study), folders_(folders), folder_(folder), cache_(cache), driver_(driver),
+          hashes_(folders), finished_(folder / "finished"), effort_(progress) {}
 
     MatchResult run();
 
@@ -158,7 +172,8 @@ class Matching {
     void look();
     void lookAt(const std::string& sceneSha256);
     const Probe& probe(const Subject& subject, const View& view, const ImageSize& size);
-    void addTruths(const RayTracer& tracer, Case& at);
+    Image truth(Truth truth, LazyTracer& tracer, const Case& at, const TraceProgress& progress);
+    void addTruths(LazyTracer& tracer, Case& at);
     void addPartner();
     std::string keyOf(const TechniqueSetting& setting);
     MatchedTechnique matched(const TechniqueSetting& setting);
@@ -175,7 +190,7 @@ class Matching {
 
     const MatchStudy& study_;
     const Folders& folders_;
-    const fs::path& folder_;
+    const fs::path &folder_, &cache_;
     const gl::Driver& driver_;
     SceneHashes hashes_;
     FinishedTechniques finished_;
@@ -227,30 +242,49 @@ const Probe& Matching::probe(const Subject& subject, const View& view, const Ima
     return *known;
 }
 
-void Matching::addTruths(const RayTracer& tracer, Case& at) {
-    for (const Truth truth : truthsOf(study_, at.train)) {
-        const double before = effort_.done(), cost = truthCost(size(at), study_.rays);
-        const std::string note = fmt::format("{} reference of {}", nameOf(truth), at.view.name);
-        at.targets[nameOf(truth)] =
-            truthImage(truth, tracer, *at.probe, at.view, study_, [&](double share) {
-                effort_.jumpTo(before);
-                effort_.spend(share * cost, note);
-            });
-        effort_.jumpTo(before + cost);
+// The one place that knows how each truth is made.
+Image Matching::truth(Truth truth, LazyTracer& tracer, const Case& at,
+                      const TraceProgress& progress) {
+    ReferenceInputs inputs;
+    inputs.sceneSha256 = hashes_.of(at.view);
+    inputs.camera = at.view.camera;
+    inputs.width = size(at).width;
+    inputs.height = size(at).height;
+    inputs.normals = study_.normals;
+    inputs.settings.integral = integralOf(truth);
+    inputs.settings.radius = at.view.radius;
+    inputs.settings.rays = study_.rays;
+    inputs.settings.seed = study_.seed;
+    if (truth == Truth::depth)
+        throw Error("the depth-buffer reference is not there yet");
+    return cachedReference(
+               cache_, referenceKey(inputs),
+               [&] { return tracer.get().trace(at.probe->surfaces(), inputs.settings, progress); })
+        .visibility;
+}
+
+void Matching::addTruths(LazyTracer& tracer, Case& at) {
+    for (const Truth kind : truthsOf(study_, at.train)) {
+        effort_.begin(truthCost(size(at), study_.rays),
+                      fmt::format("{} reference of {}", nameOf(kind), at.view.name));
+        at.targets[nameOf(kind)] =
+            truth(kind, tracer, at, [&](double share) { effort_.reach(share); });
+        effort_.end();
     }
 }
 
 void Matching::lookAt(const std::string& sceneSha256) {
-    std::unique_ptr<RayTracer> tracer;
+    std::optional<Scene> scene;
+    std::optional<LazyTracer> tracer;
     for (Case& at : cases_) {
         if (hashes_.of(at.view) != sceneSha256)
             continue;
-        if (!tracer) {
-            const Scene scene = loadSceneOf(at.view, folders_);
-            for (const std::string& warning : scene.warnings)
+        if (!scene) {
+            scene = loadSceneOf(at.view, folders_);
+            for (const std::string& warning : scene->warnings)
                 result_.warnings.push_back(fmt::format("scene \"{}\": {}", at.view.name, warning));
-            subjects_.push_back(std::make_unique<Subject>(scene));
-            tracer = std::make_unique<RayTracer>(scene);
+            subjects_.push_back(std::make_unique<Subject>(*scene));
+            tracer.emplace(*scene);
         }
         at.probe = &probe(*subjects_.back(), at.view, size(at));
         addTruths(*tracer, at);
@@ -302,7 +336,7 @@ std::string Matching::keyOf(const TechniqueSetting& setting) {
         for (const Setting& given : each.settings) // what is given is not fitted
             hash.add(given.name + "\n");
     };
-    hash.add(fmt::format("match 1\n{} {}\n", setting.name, study_.rays));
+    hash.add(fmt::format("match 1\n{} {} {}\n", setting.name, study_.rays, rayTracerVersion()));
     for (const bool train : {true, false})
         for (const Truth truth : truthsOf(study_, train))
             hash.add(nameOf(truth) + "\n");
@@ -330,7 +364,7 @@ FittedRemap Matching::fitAt(const TechniqueSetting& setting, const Freedom& free
             known = passes.emplace(at.view.radius, at.probe->passesFor(settings)).first;
         comparison.add(at.probe->visibility(settings, known->second), probe,
                        at.targets.at(targetOf(study_)), at.probe->shown());
-        effort_.spend(renderCost(study_.training), setting.name);
+        effort_.spend(renderCost(study_.training));
     }
     const Tunable tunable{
         {freedom.start("intensity"), freedom.start("power")}, freedom.intensity(), freedom.power()};
@@ -383,7 +417,7 @@ std::vector<MatchRow> Matching::measure(const TechniqueSetting& setting, const V
         for (const auto& [reference, target] : at.targets)
             rows.push_back({setting.name, at.view.name, at.view.radius, at.train, reference, stage,
                             imageError(image, target, at.probe->shown())});
-        effort_.spend(renderCost(size(at)), setting.name);
+        effort_.spend(renderCost(size(at)));
     }
     return rows;
 }
@@ -454,16 +488,15 @@ MatchResult Matching::run() {
         auto known = finished_.find(keys_[i]);
         result_.kept += known.has_value();
         if (!known) {
-            const double before = effort_.done();
-            effort_.spend(0, setting.name);
+            effort_.begin(techniqueCost(), setting.name);
             known = matched(setting);
             finished_.add(keys_[i], *known);
-            effort_.jumpTo(before + techniqueCost());
+            effort_.end();
         }
         known->setting = setting;
         result_.techniques.push_back(std::move(*known));
     }
-    effort_.spend(0, "writing");
+    effort_.begin(0, "writing");
     writeFile(folder_ / "match.csv", matchTable(result_));
     writePng(folder_ / "match.png", sheet(result_));
     writeFile(folder_ / "matched.toml", matchedFragment(study_, result_));
@@ -473,8 +506,8 @@ MatchResult Matching::run() {
 } // namespace
 
 MatchResult match(const MatchStudy& study, const Folders& folders, const fs::path& folder,
-                  const gl::Driver& driver, const MatchProgress& progress) {
-    return Matching(study, folders, folder, driver, progress).run();
+                  const fs::path& cache, const gl::Driver& driver, const MatchProgress& progress) {
+    return Matching(study, folders, folder, cache, driver, progress).run();
 }
 
 } // namespace obscura
