@@ -40,8 +40,8 @@ constexpr Technique table[] = {
     rows::volume::obscuranceArea,
     rows::volume::vao,
     rows::vao::vaoPlusPlus,
-    rows::light::ssdo,
-    rows::light::proxySpheresTechnique,
+    rows::lit::ssdo,
+    rows::lit::proxySpheresTechnique,
     rows::traced::rayTraced,
 };
 static_assert(wellFormed(table));

@@ -4,7 +4,7 @@
 
 // Techniques that read more of the scene than its depth and normals: its light, or spheres in its
 // stead.
-namespace obscura::rows::light {
+namespace obscura::rows::lit {
 
 constexpr Parameter ssdoParameters[] = {
     samples(16, "ours: the thesis' noise tile makes 256 of them"),
@@ -84,4 +84,4 @@ constexpr Technique proxySpheresTechnique{
     "proxy_spheres", "Proxy spheres 2007",   "Shanmugam and Arikan 2007", normals | spheres,
     squarePoints,    proxySpheresParameters, proxySpheresPasses};
 
-} // namespace obscura::rows::light
+} // namespace obscura::rows::lit
