@@ -1,5 +1,7 @@
 // Alchemy, its CS562 variant and SAO against their own limits of infinitely many samples: sheet
 // A.3's curbs seen from above, each by quadrature here and as the sheet has it.
+#include "renderer/builtin.h"
+#include "renderer/render.h"
 #include "tests/renderer/limits_fixture.h"
 
 #include <initializer_list>
@@ -184,6 +186,27 @@ TEST_F(ObscuranceLimits, ATiltedPlaneIsOpenThroughTheHierarchy) {
 // Nor does it lose occlusion: the default offset keeps the limit, up to what moves the edge by.
 TEST_F(ObscuranceLimits, TheHierarchyKeepsTheLimit) {
     expectLimit(exact("sao", {{"mipOffset", 3}}), scalable, 0.02);
+}
+
+// The band is rendered for the technique alone and cut off again: away from the border, pictures
+// with and without it differ by noise only (it was once lost on the way, and all was open).
+TEST_F(ObscuranceLimits, TheGuardBandReachesPictures) {
+    Recipe recipe;
+    recipe.width = recipe.height = 48;
+    recipe.view.builtin = "sculpture";
+    recipe.view.camera.position = {0, 1.5, 4};
+    recipe.view.camera.target = {0, 1, 0};
+    recipe.level.ambient = Vec3{1, 1, 1};
+    recipe.sceneSha256 = builtinScene("sculpture").sha256;
+    recipe.technique = "sao";
+    RecipeRenderer renderer{Folders{}};
+    const auto meanOcclusion = [&](double guardBand) {
+        recipe.settings = {{"guardBand", guardBand}, {"radius", 1}};
+        return renderer.render(recipe).meanOcclusion;
+    };
+    const double without = meanOcclusion(0);
+    EXPECT_GT(without, 0.1);
+    EXPECT_NEAR(meanOcclusion(0.2), without, 0.05);
 }
 
 } // namespace
