@@ -159,8 +159,9 @@ std::size_t split(std::span<Piece> pieces) {
     return static_cast<std::size_t>(second - pieces.begin());
 }
 
+// Spheres end up larger by the margin.
 bool contains(const Sphere& sphere, std::span<const Piece> pieces) {
-    const float squared = sphere.radius * sphere.radius;
+    const float squared = sphere.radius * sphere.radius * (1 + margin) * (1 + margin);
     for (const Piece& piece : pieces)
         for (const glm::vec3& corner : piece.corners)
             if (const glm::vec3 away = corner - sphere.centre; glm::dot(away, away) > squared)
@@ -176,7 +177,7 @@ std::vector<glm::vec4> withoutSpare(const std::vector<Cluster>& clusters) {
                 return other.sphere.radius > cluster.sphere.radius * (1 + margin) &&
                        contains(other.sphere, cluster.pieces);
             }))
-            spheres.emplace_back(cluster.sphere.centre, cluster.sphere.radius);
+            spheres.emplace_back(cluster.sphere.centre, cluster.sphere.radius * (1 + margin));
     return spheres;
 }
 

@@ -274,31 +274,18 @@ TEST_F(LightLimits, ProxySpheresOfPixelsGrowWithTheirSize) {
     EXPECT_NEAR(1 - centre(curb(0.5f, 0.5f), settings), 2.25 * curbLimit(0.5, 0.5), 0.01);
 }
 
-// A ball of 0.3 m radius above a floor. The floor's own spheres, centred on it, do nothing; the one
-// fitted to the ball blocks 2 (1 - sqrt(1 - r^2 / d^2)) cos.
+// A sphere of 0.6 m radius, 1.3 m above a floor, blocks 2 (1 - sqrt(1 - r^2 / d^2)) cos.
 TEST_F(LightLimits, OneRealSphereAboveAPlane) {
-    constexpr float radius = 0.3f;
-    const glm::vec3 ball(0, 1.3f, 0); // clear of the first split, at half the scene's height
-    Scene scene;
-    addStrip(scene, -5, 0, 5, 0);
-    for (int i = 0; i < 48; ++i)
-        for (int j = 0; j < 24; ++j) {
-            const auto at = [&](int u, int v) {
-                const double longitude = 2 * pi * u / 48, colatitude = pi * v / 24;
-                return ball + radius * glm::vec3(std::sin(colatitude) * std::sin(longitude),
-                                                 std::cos(colatitude),
-                                                 std::sin(colatitude) * std::cos(longitude));
-            };
-            addQuad(scene, {at(i, j + 1), at(i + 1, j + 1), at(i + 1, j), at(i, j)});
-        }
+    const Scene scene = wedge(0);
     Settings settings = neutral("proxy_spheres");
     settings.set("detail", 0);
     settings.set("bias", 0);
     settings.set("sphereSize", 1);
     settings.set("distantReach", 100);
-    const Image image = visibilityOf(scene, above(), settings, width, height);
+    const Image image = occlusionOf(scene, above(), settings, width, height, 1, Normals::smooth,
+                                    whiteLight(), {glm::vec4(0, 1.3f, 0, 0.6f)});
     for (const double x : {0.5, 0.8, 1.2}) {
-        const double distance = std::hypot(x, 1.3), sine = 0.3 / distance;
+        const double distance = std::hypot(x, 1.3), sine = 0.6 / distance;
         const double expected = 2 * (1 - std::sqrt(1 - sine * sine)) * 1.3 / distance;
         const int column = static_cast<int>((x / field + 0.5) * width);
         EXPECT_NEAR(1 - static_cast<double>(image.at(column, height / 2, 0)), expected, 0.003) << x;

@@ -54,7 +54,8 @@ inline Level whiteLight() {
 // first.
 inline Image occlusionOf(const Scene& scene, const Camera& camera, const Settings& settings,
                          int width, int height, std::uint64_t seed = 1,
-                         Normals kind = Normals::smooth, const Level& level = whiteLight()) {
+                         Normals kind = Normals::smooth, const Level& level = whiteLight(),
+                         std::vector<glm::vec4> proxies = {}) {
     const GpuScene gpuScene(scene);
     const int guard = guardPixels(settings, height);
     const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
@@ -73,12 +74,12 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
     GBufferPass().draw(gpuScene, frame, gbuffer);
     const LightBuffers light(fullWidth, fullHeight, lighting.hasDirect());
     lighting.draw(gbuffer, light);
-    std::optional<ProxySpheres> proxies;
+    std::optional<ProxySpheres> fitted;
     if (settings.technique().reads & spheres)
-        proxies.emplace(proxySpheres(scene, 256)); // enough for scenes of a few quads
+        fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
     const OcclusionPasses passes(settings, fullWidth, fullHeight);
     const gl::Texture& texture =
-        passes.visibility({gbuffer, &light, &lighting, proxies ? &*proxies : nullptr});
+        passes.visibility({gbuffer, &light, &lighting, fitted ? &*fitted : nullptr});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
