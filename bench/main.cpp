@@ -1,6 +1,7 @@
 #include "renderer/builtin.h"
 #include "renderer/gl/context.h"
 
+#include "bench/normals.h"
 #include "bench/rays.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -14,7 +15,7 @@ namespace {
 using namespace obscura;
 namespace fs = std::filesystem;
 
-struct RayOptions {
+struct Options {
     std::string scene = "atrium", integral = "cosine";
     fs::path scenes;
     std::vector<double> camera{7.6, 1.2, -0.9, -4, 2.4, 1.2};
@@ -32,26 +33,30 @@ double peakMemory() {
     return 0;
 }
 
-int rays(RayOptions& options) {
-    const std::vector<std::string>& names = integralNames();
-    options.settings.integral = static_cast<Integral>(
-        std::find(names.begin(), names.end(), options.integral) - names.begin());
+Scene sceneOf(const Options& options) {
     const auto builtins = builtinSceneNames();
-    const bool builtin =
-        std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
-    const Scene scene =
-        builtin ? builtinScene(options.scene) : loadScene(options.scenes / options.scene);
+    return std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end()
+               ? builtinScene(options.scene)
+               : loadScene(options.scenes / options.scene);
+}
+
+Camera cameraOf(const Options& options) {
     Camera camera;
     const auto& c = options.camera;
     camera.position = {c[0], c[1], c[2]};
     camera.target = {c[3], c[4], c[5]};
     camera.fovDegrees = options.fovDegrees;
+    return camera;
+}
+
+int rays(const Options& options) {
+    const Scene scene = sceneOf(options);
     const gl::Context context;
     const GpuScene gpuScene(scene);
-    const Surfaces surfaces = surfacesOf(
-        gpuScene, GBufferPass(),
-        makeFrame(camera, options.width, options.height, gpuScene.bounds(), options.settings.seed),
-        Normals::smooth);
+    const Surfaces surfaces = surfacesOf(gpuScene, GBufferPass(),
+                                         makeFrame(cameraOf(options), options.width, options.height,
+                                                   gpuScene.bounds(), options.settings.seed),
+                                         Normals::smooth);
     const RayRates rates = measureRays(scene, surfaces, options.settings);
     fmt::print("{}: {:.1f} million rays within {} m, {}\n", options.scene, rates.rays * 1e-6,
                options.settings.radius, options.integral);
@@ -64,27 +69,49 @@ int rays(RayOptions& options) {
     return 0;
 }
 
+int normals(const Options& options) {
+    const gl::Context context;
+    const NormalsEffect effect = measureNormals(sceneOf(options), cameraOf(options), options.width,
+                                                options.height, options.settings);
+    fmt::print("mean visibility: face {:.4f}, smooth {:.4f}, mapped {:.4f}\n", effect.mean[0],
+               effect.mean[1], effect.mean[2]);
+    fmt::print("RMSE: face-smooth {:.4f}, smooth-mapped {:.4f}, face-mapped {:.4f}; noise {:.4f} "
+               "taken out\n",
+               effect.faceSmooth, effect.smoothMapped, effect.faceMapped, effect.noise);
+    return 0;
+}
+
 int run(int argc, char** argv) {
-    RayOptions options;
+    Options options;
     const char* scenes = std::getenv("OBSCURA_SCENES");
     options.scenes = scenes ? scenes : ".";
     CLI::App app("obscura-bench: how fast the parts of Obscura are");
     app.require_subcommand(1);
     CLI::App* ray = app.add_subcommand("rays", "our ray tracing beside a bare Embree loop");
-    ray->add_option("--scene", options.scene, "built-in scene or glTF file in the scenes folder")
-        ->capture_default_str();
-    ray->add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
-    ray->add_option("--camera", options.camera, "position x y z, target x y z")->expected(6);
-    ray->add_option("--fov", options.fovDegrees, "vertical, degrees")->capture_default_str();
-    ray->add_option("--width", options.width)->check(CLI::Range(1, 16384))->capture_default_str();
-    ray->add_option("--height", options.height)->check(CLI::Range(1, 16384))->capture_default_str();
-    ray->add_option("--rays", options.settings.rays, "per pixel")->capture_default_str();
-    ray->add_option("--radius", options.settings.radius, "metres")->capture_default_str();
-    ray->add_option("--integral", options.integral)
-        ->check(CLI::IsMember(integralNames()))
-        ->capture_default_str();
+    CLI::App* normal =
+        app.add_subcommand("normals", "what face, smooth and mapped normals do to visibility");
+    for (CLI::App* command : {ray, normal}) {
+        command->add_option("--scene", options.scene, "built-in scene or file in the scenes folder")
+            ->capture_default_str();
+        command->add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
+        command->add_option("--camera", options.camera, "position x y z, target x y z")
+            ->expected(6);
+        command->add_option("--fov", options.fovDegrees, "vertical, degrees")
+            ->capture_default_str();
+        for (auto [name, value] :
+             {std::pair("--width", &options.width), std::pair("--height", &options.height)})
+            command->add_option(name, *value)->check(CLI::Range(1, 16384))->capture_default_str();
+        command->add_option("--rays", options.settings.rays, "per pixel")->capture_default_str();
+        command->add_option("--radius", options.settings.radius, "metres")->capture_default_str();
+        command->add_option("--integral", options.integral)
+            ->check(CLI::IsMember(integralNames()))
+            ->capture_default_str();
+    }
     CLI11_PARSE(app, argc, argv);
-    return rays(options);
+    const std::vector<std::string>& names = integralNames();
+    options.settings.integral = static_cast<Integral>(
+        std::find(names.begin(), names.end(), options.integral) - names.begin());
+    return ray->parsed() ? rays(options) : normals(options);
 }
 
 } // namespace
