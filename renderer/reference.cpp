@@ -11,7 +11,7 @@
 // is that variance, without bias, from as many differences as there are cells at the edge of an
 // occluder: far steadier than the spread of a handful of batches, which would also need the nets
 // cut into smaller, worse ones. A net does a little better than jittered sampling, because it is
-// even in cells of other shapes too; so the error errs on the large side, by a sixth on the closed
+// even in cells of other shapes too; so the error errs on the large side, by a fifth on the closed
 // forms of reference_test.cpp (more where edges run along cells). Where the rays of every cell
 // agree, something as large as one ray may still have been missed: 1 / N.
 #include "renderer/reference.h"
