@@ -154,9 +154,20 @@ class Freedom {
     const Settings& settings_;
 };
 
-// Where the last pass would clamp, occlusion is scaled down first: a raw visibility down to
-// 1 - 1 / probe is told apart, at an eighth of a half-float's precision.
-constexpr double probeIntensity = 0.125;
+// Where the last pass clamps more than a few pixels at black, occlusion is rendered fainter: at
+// this intensity a raw visibility down to 1 - 1 / 0.125 is told apart, at an eighth of the
+// precision of a half-float.
+constexpr double faintly = 0.125, fewPixels = 0.001;
+
+bool clampsAtBlack(const Image& image, const std::vector<bool>& shown) {
+    double black = 0, all = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        if (shown[i]) {
+            black += image.pixels[i] <= 0;
+            ++all;
+        }
+    return black > fewPixels * all;
+}
 
 class Matching {
   public:
@@ -177,7 +188,12 @@ class Matching {
     void addPartner();
     std::string keyOf(const TechniqueSetting& setting);
     MatchedTechnique matched(const TechniqueSetting& setting);
-    FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, double multiplier);
+    // Shaders take long to compile: shared by views of one radius and intensity.
+    using PassesOf = std::map<std::pair<double, double>, OcclusionPasses>;
+    Image rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
+                        double& probe, PassesOf& passes);
+    FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, double multiplier,
+                      double& probe);
     Values fit(const TechniqueSetting& setting, std::string& note);
     std::vector<MatchRow> measure(const TechniqueSetting& setting, const Values& values,
                                   const std::string& stage);
@@ -211,6 +227,9 @@ double Matching::techniqueCost() const {
 
 // Everything that can be wrong with the study shows here, before the first ray.
 void Matching::plan() {
+    for (const Truth truth : truthsOf(study_, false))
+        if (truth == Truth::depth)
+            throw Error("the depth-buffer reference is not there yet");
     for (const bool train : {true, false})
         for (const View& view : train ? study_.train : study_.test) {
             cases_.push_back({view, train, nullptr, {}});
@@ -255,8 +274,6 @@ Image Matching::truth(Truth truth, LazyTracer& tracer, const Case& at,
     inputs.settings.radius = at.view.radius;
     inputs.settings.rays = study_.rays;
     inputs.settings.seed = study_.seed;
-    if (truth == Truth::depth)
-        throw Error("the depth-buffer reference is not there yet");
     return cachedReference(
                cache_, referenceKey(inputs),
                [&] { return tracer.get().trace(at.probe->surfaces(), inputs.settings, progress); })
@@ -347,23 +364,37 @@ std::string Matching::keyOf(const TechniqueSetting& setting) {
     return hash.hex();
 }
 
+// Raw visibility at a multiplier; `probe` is the intensity to try, and falls when that clamps.
+Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
+                              double& probe, PassesOf& passes) {
+    Settings settings =
+        settingsAt(setting, at.view, {{"radiusMultiplier", multiplier}, {"power", 1}});
+    const auto render = [&] {
+        if (settings.has("intensity"))
+            settings.set("intensity", probe);
+        const std::pair key(at.view.radius, probe);
+        auto known = passes.find(key);
+        if (known == passes.end())
+            known = passes.emplace(key, at.probe->passesFor(settings)).first;
+        return at.probe->visibility(settings, known->second);
+    };
+    Image image = render();
+    if (probe == 1 && settings.has("intensity") && clampsAtBlack(image, at.probe->shown())) {
+        probe = faintly;
+        image = render();
+    }
+    return image;
+}
+
 FittedRemap Matching::fitAt(const TechniqueSetting& setting, const Freedom& freedom,
-                            double multiplier) {
+                            double multiplier, double& probe) {
     Comparison comparison;
-    std::map<double, OcclusionPasses> passes; // by radius: shaders take long to compile
-    double probe = 1;
+    PassesOf passes;
     for (const Case& at : cases_) {
         if (!at.train)
             continue;
-        Settings settings =
-            settingsAt(setting, at.view, {{"radiusMultiplier", multiplier}, {"power", 1}});
-        if (settings.has("intensity"))
-            settings.set("intensity", probe = probeIntensity);
-        auto known = passes.find(at.view.radius);
-        if (known == passes.end())
-            known = passes.emplace(at.view.radius, at.probe->passesFor(settings)).first;
-        comparison.add(at.probe->visibility(settings, known->second), probe,
-                       at.targets.at(targetOf(study_)), at.probe->shown());
+        const Image image = rawVisibility(setting, at, multiplier, probe, passes);
+        comparison.add(image, probe, at.targets.at(targetOf(study_)), at.probe->shown());
         effort_.spend(renderCost(study_.training));
     }
     const Tunable tunable{
@@ -385,11 +416,12 @@ Values Matching::fit(const TechniqueSetting& setting, std::string& note) {
         return {};
     }
     std::map<double, FittedRemap> tried;
+    double probe = 1;
     const auto error = [&](double multiplier) {
         const auto found = tried.find(multiplier);
         return found != tried.end()
                    ? found->second.error
-                   : (tried[multiplier] = fitAt(setting, freedom, multiplier)).error;
+                   : (tried[multiplier] = fitAt(setting, freedom, multiplier, probe)).error;
     };
     double best = freedom.start("radiusMultiplier");
     if (const auto range = freedom.multiplier())

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -33,6 +34,24 @@ inline std::string triangleGltf(const std::string& node = "", const std::string&
            R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"},)"
            R"({"bufferView":2,"componentType":5123,"count":3,"type":"SCALAR"}])" +
            extra + "}";
+}
+
+// Triangles without index, flat: three floats a corner, as the file t.bin and the glTF that names
+// it.
+inline std::string trianglesBuffer(const std::vector<float>& positions) {
+    std::string bytes(positions.size() * sizeof(float), '\0');
+    std::memcpy(bytes.data(), positions.data(), bytes.size());
+    return bytes;
+}
+inline std::string trianglesGltf(const std::vector<float>& positions) {
+    const std::string length = std::to_string(positions.size() * sizeof(float)),
+                      count = std::to_string(positions.size() / 3);
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"material":0}]}],)"
+           R"("materials":[{"doubleSided":true}],"buffers":[{"uri":"t.bin","byteLength":)" +
+           length + R"(}],"bufferViews":[{"buffer":0,"byteLength":)" + length +
+           R"(}],"accessors":[{"bufferView":0,"componentType":5126,"count":)" + count +
+           R"(,"type":"VEC3"}]})";
 }
 
 } // namespace obscura
