@@ -144,6 +144,7 @@ MatchStudy atRadius(MatchStudy study, double radius) {
         throw Error(fmt::format("expected a radius that training and test views of \"{}\" have, "
                                 "found {}; one of: {}",
                                 study.name, radius, fmt::join(known, ", ")));
+    study.name += fmt::format("-{}", radius); // results of their own
     return study;
 }
 
