@@ -1,6 +1,7 @@
 #include "renderer/probe.h"
 
 #include "renderer/gl/context.h"
+#include "renderer/proxies.h"
 
 namespace obscura {
 
@@ -22,7 +23,8 @@ struct Probe::Sight {
 };
 
 Subject::Subject(const Scene& scene)
-    : scene_(scene), lighting_(whiteLight(), scene_, std::filesystem::path()) {}
+    : scene_(scene), lighting_(whiteLight(), scene_, std::filesystem::path()),
+      spheres_(proxySpheres(scene)) {}
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
              std::uint64_t seed)
@@ -73,7 +75,7 @@ Image Probe::visibility(const Settings& settings, const OcclusionPasses& passes)
     const Sight& seen = sight(guard);
     bindFrame(seen.frame);
     const gl::Texture& texture =
-        passes.visibility({seen.gbuffer, &seen.light, &subject_.lighting(), nullptr});
+        passes.visibility({seen.gbuffer, &seen.light, &subject_.lighting(), &subject_.spheres()});
     const std::vector<float> values =
         gl::readFloats(texture, width, height_ + 2 * guard, gl::Format::r32f);
     for (int y = guard + height_ - 1; y >= guard; --y) {

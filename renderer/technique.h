@@ -41,7 +41,8 @@ enum class Stage {
              // pixels right of the target too (their value is dropped), so that all reach barriers
     columns, // the same in groups of 1 x 128
     splat    // vec4 name(ivec2 pixel, vec4 sphere), once per proxy sphere (view space) over the
-             // pixels within `radius` x `distantReach` of it, all added up
+             // pixels within `radius` x `distantReach` of it, all added up; its radius is the
+             // fitted one x `sphereSize`
 };
 
 // One pass. Later passes read its output from a sampler called nameResult.

@@ -2,6 +2,7 @@
 
 #include "protocols/files.h"
 #include "protocols/version.h"
+#include "renderer/depth_reference.h"
 #include "renderer/probe.h"
 #include "renderer/reference_cache.h"
 #include "stimuli/fit.h"
@@ -227,9 +228,6 @@ double Matching::techniqueCost() const {
 
 // Everything that can be wrong with the study shows here, before the first ray.
 void Matching::plan() {
-    for (const Truth truth : truthsOf(study_, false))
-        if (truth == Truth::depth)
-            throw Error("the depth-buffer reference is not there yet");
     for (const bool train : {true, false})
         for (const View& view : train ? study_.train : study_.test) {
             cases_.push_back({view, train, nullptr, {}});
@@ -274,6 +272,13 @@ Image Matching::truth(Truth truth, LazyTracer& tracer, const Case& at,
     inputs.settings.radius = at.view.radius;
     inputs.settings.rays = study_.rays;
     inputs.settings.seed = study_.seed;
+    if (truth == Truth::depth)
+        return cachedReference(cache_, referenceKey(inputs) + "-depth",
+                               [&] {
+                                   return depthReference(at.probe->surfaces(), inputs.settings, {},
+                                                         progress);
+                               })
+            .visibility;
     return cachedReference(
                cache_, referenceKey(inputs),
                [&] { return tracer.get().trace(at.probe->surfaces(), inputs.settings, progress); })

@@ -20,7 +20,7 @@ constexpr Parameter ssdoParameters[] = {
     {"bounce", Unit::flag, "blocked directions let in the light of the surface that blocks them", 1,
      0, 1, "Ritschel et al. 2009, equation 2"},
     {"bounceStrength", Unit::ratio, "factor on the bounced light", 1, 0, 10,
-     "Ritschel et al. 2009, section 4: adjusted by hand"},
+     "neutral; Ritschel et al. 2009 adjust it by hand"},
     {"nearestSender", Unit::ratio,
      "distance, in radii, from which nearer surfaces send light too, lest it grow without bound",
      0.25f, 0.01f, 1,

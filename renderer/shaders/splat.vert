@@ -1,13 +1,14 @@
 // One rectangle per proxy sphere, around the pixels that may lie within `radius` x `distantReach`
-// of it.
+// of it once it is `sphereSize` as large.
 #include "view.glsl"
 
 flat out vec4 sphere; // view space
 
 void main() {
     vec4 world = spheres[gl_InstanceID];
-    sphere = vec4((frame.viewFromWorld * vec4(world.xyz, 1.0)).xyz, world.w);
-    float reach = world.w + settings.radius * settings.distantReach;
+    sphere = vec4((frame.viewFromWorld * vec4(world.xyz, 1.0)).xyz,
+                  world.w * settings.sphereSize);
+    float reach = sphere.w + settings.radius * settings.distantReach;
     float nearest = -sphere.z - reach, farthest = -sphere.z + reach;
     // The box around the ball; each side is widest at the nearer or the farther depth.
     vec2 low = sphere.xy - reach, high = sphere.xy + reach;

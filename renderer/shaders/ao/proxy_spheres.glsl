@@ -6,13 +6,14 @@
 // the camera, the more of them. Low frequency ("distant"): spheres fitted to the scene's meshes
 // (renderer/proxies.h) are splatted over the pixels that they may reach.
 //
+// Facts are from Jakobsen 2010, chapter 2, and other later accounts: the paper itself was not at hand.
 // The sum forgets that occluders hide each other: it double-counts, the paper's known fault, kept.
 // Departures:
 // - A surface must not occlude itself by its own sphere. Fitted spheres have their centres on or
 //   inside what they stand for, so their cosine is 0 or less there; and every sphere counts nothing
 //   inside itself and fades in over `nearFade` radii outside, where its caps are too wide to be true.
-// - The paper ends a splat where its effect falls below a threshold; here it fades to nothing at
-//   `distantReach`. Details end at the radius.
+// - A splat must end somewhere: its effect fades to nothing at `distantReach`. Details end at the
+//   radius.
 // - Fitted spheres enclose patches, and those of a wall's far side count too: `sphereSize` makes up.
 //
 // Limits: one sphere, far inside all fades: visibility 1 - 2 (1 - sqrt(1 - r^2/d^2)) cos. Infinitely
@@ -62,7 +63,7 @@ vec4 distant(ivec2 pixel, vec4 sphere) {
     if (isEmpty(depth))
         return vec4(0.0);
     vec3 centre = (sphere.xyz - viewPosition(uvOf(pixel), depth)) / settings.radius;
-    float radius = sphere.w * settings.sphereSize / settings.radius;
+    float radius = sphere.w / settings.radius;
     float gap = max(length(centre) - radius, 0.0) / settings.distantReach;
     float fade = max(1.0 - gap * gap, 0.0);
     return vec4(fade > 0.0 ? fade * fade * capOcclusion(centre, radius, normalOf(pixel)) : 0.0);
