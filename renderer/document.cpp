@@ -56,6 +56,12 @@ std::string rowOf(const Technique& technique) {
     for (const Parameter& p : technique.parameters)
         text += fmt::format("| `{}` | {} | {} | {} … {} | {} | {} |\n", p.name, p.value,
                             spell(p.unit), p.low, p.high, p.meaning, p.source);
+    for (const Preset& preset : technique.presets) {
+        std::string values;
+        for (const PresetValue& value : preset.values)
+            values += fmt::format("{}`{}` = {}", values.empty() ? "" : ", ", value.name, value.value);
+        text += fmt::format("\nPreset `{}`: {}.\n", preset.name, values);
+    }
     return text;
 }
 

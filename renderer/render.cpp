@@ -296,7 +296,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                 *stage_->tracer,
                 surfacesOf(*stage_->scene, stage_->gbufferPass, frame, recipe.normals), settings,
                 recipe.seed + static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15u));
-        bindFrame(block);
+        bindFrame(wideBlock ? *wideBlock : block);
         const gl::Texture& visibility =
             traced ? *traced
                    : occlusion.visibility({padded ? *padded : gbuffer, &light, &lighting,
