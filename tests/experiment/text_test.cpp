@@ -96,7 +96,9 @@ TEST(Text, LongTextIsSetSmallerAndThenRefused) {
 TEST(Text, TheShippedProtocolsFitTheirScreens) {
     int found = 0;
     for (const auto& entry : std::filesystem::directory_iterator(OBSCURA_SOURCE "/protocols")) {
-        if (entry.path().extension() != ".toml")
+        // Studies of techniques, not of people, have other files: match-*.toml.
+        if (entry.path().extension() != ".toml" ||
+            entry.path().filename().string().starts_with("match-"))
             continue;
         ++found;
         const Protocol protocol = readProtocol(entry.path());
