@@ -59,7 +59,8 @@ std::string rowOf(const Technique& technique) {
     for (const Preset& preset : technique.presets) {
         std::string values;
         for (const PresetValue& value : preset.values)
-            values += fmt::format("{}`{}` = {}", values.empty() ? "" : ", ", value.name, value.value);
+            values +=
+                fmt::format("{}`{}` = {}", values.empty() ? "" : ", ", value.name, value.value);
         text += fmt::format("\nPreset `{}`: {}.\n", preset.name, values);
     }
     return text;

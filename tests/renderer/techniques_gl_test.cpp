@@ -175,9 +175,8 @@ TEST_P(EveryTechnique, EverySettingChangesThePicture) {
             settings.set(parameter.name, affordable(parameter, value));
             const Image changed = picture(settings);
             // With or without light to add is a change, whatever the light.
-            largest = std::max(largest, changed.channels != base.channels
-                                            ? 1
-                                            : compare(base, changed).largest);
+            largest = std::max(
+                largest, changed.channels != base.channels ? 1 : compare(base, changed).largest);
         }
         EXPECT_GT(largest, 1e-3) << parameter.name;
     }
