@@ -16,14 +16,13 @@
 // agree, something as large as one ray may still have been missed: 1 / N.
 #include "renderer/reference.h"
 
+#include "renderer/parallel.h"
 #include "renderer/ray_packets.h"
 #include "renderer/ray_scene.h"
 
 #include <fmt/format.h>
 
-#include <atomic>
 #include <cmath>
-#include <thread>
 
 namespace obscura {
 
@@ -45,15 +44,11 @@ class Tracer {
         : scene_(scene), surfaces_(surfaces), settings_(settings),
           packets_(scene, surfaces, settings), result_(result) {}
 
-    // Groups until there are no more; done by as many threads as one likes.
-    void work(const TraceProgress& progress) {
+    int groups() const { return packets_.groups(); }
+    // Groups may be traced on several threads at once.
+    void trace(int group) const {
         std::vector<Lanes<float>> partners(static_cast<std::size_t>(packets_.cells()));
-        const int groups = packets_.groups();
-        for (int group = next_++; group < groups; group = next_++) {
-            trace(packets_.group(group), partners);
-            if (progress)
-                progress(static_cast<double>(group + 1) / groups);
-        }
+        trace(packets_.group(group), partners);
     }
 
   private:
@@ -128,7 +123,6 @@ class Tracer {
     const TraceSettings& settings_;
     RayPackets packets_;
     Reference& result_;
-    std::atomic<int> next_ = 0;
 };
 
 Image filled(const Surfaces& surfaces, std::vector<float> pixel) {
@@ -162,17 +156,9 @@ RayTracer::RayTracer(RayTracer&&) noexcept = default;
 Reference RayTracer::trace(const Surfaces& surfaces, const TraceSettings& settings,
                            const TraceProgress& progress) const {
     Reference result{filled(surfaces, {1}), filled(surfaces, {0}), filled(surfaces, {0, 0, 1})};
-    Tracer tracer(device_->scene, surfaces, settings, result);
-    {
-        const int threads =
-            settings.threads > 0
-                ? settings.threads
-                : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-        std::vector<std::jthread> others;
-        for (int i = 1; i < threads; ++i)
-            others.emplace_back([&tracer] { tracer.work({}); });
-        tracer.work(progress);
-    }
+    const Tracer tracer(device_->scene, surfaces, settings, result);
+    forEachInParallel(
+        tracer.groups(), [&](int group) { tracer.trace(group); }, progress, settings.threads);
     device_->scene.throwErrors();
     return result;
 }

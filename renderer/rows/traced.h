@@ -22,7 +22,7 @@ constexpr Technique rayTraced{
     "ray_traced",
     "Ray-traced reference",
     "cosine-weighted visibility within a radius, after Zhukov et al. 1998; traced with Embree",
-    normals | rays,
+    rays,
     nullptr,
     rayTracedParameters,
     {}};

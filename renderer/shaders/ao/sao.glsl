@@ -33,6 +33,18 @@ ivec2 rotatedGrid(ivec2 pixel, ivec2 size) {
     return min(2 * pixel + ((pixel.yx & 1) ^ 1), size - 1);
 }
 
+ivec2 sizeOfLevel(int level) { return max(ivec2(frame.size.xy) >> level, 1); }
+
+// llvmpipe reads all four pixels of a quad from one level even where each names its own, so every
+// level is read by those alone that want it.
+float depthAtLevel(ivec2 texel, int level) {
+    float depth = 0.0;
+    for (int l = 0; l < textureQueryLevels(hierarchyResult); ++l)
+        if (l == level)
+            depth = texelFetch(hierarchyResult, texel, l).r;
+    return depth;
+}
+
 vec4 hierarchy(ivec2 pixel) { return vec4(depthOf(pixel)); }
 
 vec4 hierarchyLevel(ivec2 pixel) {
@@ -58,12 +70,12 @@ vec3 towardsTap(ivec2 pixel, vec3 position, vec2 offset) {
     ivec2 tap = clamp(pixel + ivec2(round(offset)), ivec2(0), ivec2(frame.size.xy) - 1);
     int level = clamp(findMSB(int(length(offset))) - int(settings.mipOffset), 0,
                       textureQueryLevels(hierarchyResult) - 1);
-    tap = min(tap >> level, textureSize(hierarchyResult, level) - 1);
-    float depth = texelFetch(hierarchyResult, tap, level).r;
+    tap = min(tap >> level, sizeOfLevel(level) - 1);
+    float depth = depthAtLevel(tap, level);
     if (isEmpty(depth))
         return vec3(0.0);
     for (; level > 0; --level)
-        tap = rotatedGrid(tap, textureSize(hierarchyResult, level - 1));
+        tap = rotatedGrid(tap, sizeOfLevel(level - 1));
     return (viewPosition(uvOf(tap), depth) - position) / settings.radius;
 }
 
