@@ -1,62 +1,55 @@
-// Line samples: pixels of a disc through a ball, and how much of the ball each pixel's ray crosses
-// (Loos and Sloan 2010; Szirmay-Kalos et al. 2010). Both papers lay the disc across the view axis
-// and cut lines parallel to it. Ours lies across the way to the ball, and a line is the true ray of
-// the pixel that is read: near the image's border a parallel cut would shear the ball into its own
-// plane and darken it, and a ray that misses the pixel's centre would do so on slanted surfaces.
+// Line samples of a ball: each line of sight crosses it from one depth to another, and the depth
+// buffer says how much of that is in front of the scene (Loos and Sloan 2010; Szirmay-Kalos et al.
+// 2010; both cut lines parallel to the view axis).
+//
+// The line belongs to the centre of the pixel whose depth is read, not to the exact sample point.
+// So a plane is behind all of every line at any tilt and distance, and no bias is needed. For the
+// same reason depths are kept relative to the pixel's own: their differences are exact.
 
 #include "depth.glsl"
-#include "noise.glsl"
 
-struct Disc {
-    vec3 centre, across, up; // both of the ball's radius, turned by the tile's vector
-    float shift;             // 0 ... 1, of the tap's place between one ring and the next
+struct Ball {
+    vec2 uv;       // of the pixel whose surface it belongs to
+    float depth;   // there
+    vec3 toCentre; // from the surface, view space
+    float radius;
 };
 
-Disc discOf(vec3 centre, float radius, ivec2 pixel) {
-    vec3 axis = centre / max(length(centre), 1e-20);
-    float side = axis.z >= 0.0 ? 1.0 : -1.0; // Duff et al. 2017, a basis without bad directions
-    float a = -1.0 / (side + axis.z), b = axis.x * axis.y * a;
-    vec3 first = vec3(1.0 + side * axis.x * axis.x * a, side * b, -side * axis.x);
-    vec3 second = vec3(b, side + axis.y * axis.y * a, -axis.y);
-    // The tile's vectors have sixteen evenly spaced heights, which make the turn, and azimuths that
-    // make the shift; by their azimuths, golden angles too, discs would be turned onto each other.
-    vec3 random = tileDirection(pixel);
-    float angle = 3.14159265 * random.z + 6.28318531 * unitFloat(hash(uint(frame.seed.x) + 1u));
-    vec2 turn = radius * vec2(cos(angle), sin(angle));
-    return Disc(centre, first * turn.x + second * turn.y, second * turn.x - first * turn.y,
-                atan(random.y, random.x) / 6.28318531 + 0.5);
+// Of volumetric ambient occlusion (Szirmay-Kalos et al. 2010): half the radius, touching the
+// surface from above, so that a plane leaves all of it open.
+Ball tangentBall(ivec2 pixel, float depth, vec3 normal) {
+    float radius = 0.5 * settings.radius;
+    return Ball(uvOf(pixel), depth, normal * radius, radius);
 }
 
-// Taps are even over the disc's area: rings of equal area, one golden angle apart.
-vec2 discUv(Disc disc, int i, int count) {
-    vec2 point = points[i].xy * sqrt((float(i) + disc.shift) / float(count));
-    return uvFromView(disc.centre + disc.across * point.x + disc.up * point.y);
+// From the surface to the ray of `uv` where it has the ball's depth.
+vec3 asideOf(Ball ball, vec2 uv) {
+    return vec3((uv - ball.uv) * frame.viewFromUv.xy * ball.depth, 0.0);
 }
 
-bool isOutside(vec2 uv) {
-    return any(lessThan(uv, vec2(0.0))) || any(greaterThanEqual(uv, vec2(1.0)));
+// Depths, less the ball's, at which the line of sight through `uv` enters and leaves the ball, not
+// behind the camera; equal where it misses.
+vec2 lineThrough(Ball ball, vec2 uv) {
+    vec3 ray = viewPosition(uv, 1.0); // per unit of depth
+    float rise = -ball.toCentre.z;
+    // From the centre to the ray's point at the centre's depth.
+    vec3 aside = asideOf(ball, uv) + ray * rise - ball.toCentre;
+    vec3 moment = cross(ray, aside);
+    float square = dot(ray, ray);
+    float middle = rise - dot(ray, aside) / square;
+    float extent =
+        sqrt(max(square * ball.radius * ball.radius - dot(moment, moment), 0.0)) / square;
+    return max(vec2(middle - extent, middle + extent), vec2(-ball.depth));
 }
 
-// Depths at which the ray through uv enters and leaves the ball; equal where it misses.
-vec2 chordOf(vec2 uv, vec3 centre, float radius) {
-    vec3 ray = viewPosition(uv, 1.0);
-    float squared = dot(ray, ray), nearest = dot(ray, centre) / squared;
-    vec3 miss = centre - ray * nearest;
-    float reach = sqrt(max(radius * radius - dot(miss, miss), 0.0) / squared);
-    return max(vec2(nearest - reach, nearest + reach), 0.0);
-}
+// How much of the line is in front of the scene's depth, which is relative to the ball's too.
+float openLength(vec2 line, float scene) { return clamp(scene - line.x, 0.0, line.y - line.x); }
 
-// The part of a chord on the normal's side of the plane through `position`.
-vec2 clippedChord(vec2 chord, vec2 uv, vec3 position, vec3 normal) {
+// The part of a line on the normal's side of the surface's plane.
+vec2 clippedLine(vec2 line, Ball ball, vec2 uv, vec3 normal) {
     float facing = dot(normal, viewPosition(uv, 1.0));
     if (abs(facing) < 1e-6)
-        return chord;
-    float plane = dot(normal, position) / facing;
-    return facing < 0.0 ? min(chord, plane) : max(chord, plane);
-}
-
-// How much of a chord is open: all of it where the surface lies beyond (or there is none), nothing
-// where it lies before, else the part in front of it. Surfaces are taken for infinitely thick.
-float openLength(vec2 chord, float sceneDepth) {
-    return clamp(sceneDepth, chord.x, chord.y) - chord.x;
+        return line;
+    float plane = -dot(normal, asideOf(ball, uv)) / facing;
+    return facing < 0.0 ? min(line, plane) : max(line, plane);
 }

@@ -12,14 +12,14 @@
 
 #include "ball.glsl"
 #include "blur_normal.glsl"
+#include "disc.glsl"
 
 vec4 gather(ivec2 pixel) {
     float depth = depthOf(pixel);
     if (isEmpty(depth))
         return vec4(1.0);
-    float ball = 0.5 * settings.radius;
-    vec3 centre = viewPosition(uvOf(pixel), depth) + ball * normalOf(pixel);
-    Disc disc = discOf(centre, ball, pixel);
+    Ball ball = tangentBall(pixel, depth, normalOf(pixel));
+    Disc disc = discOf(viewPosition(ball.uv, depth) + ball.toCentre, ball.radius, pixel);
 
     int count = int(settings.samples);
     float open = 0.0, whole = 0.0;
@@ -28,9 +28,9 @@ vec4 gather(ivec2 pixel) {
         if (isOutside(uv))
             continue;
         ivec2 tap = pixelOf(uv);
-        vec2 chord = chordOf(uvOf(tap), centre, ball);
-        open += openLength(chord, depthOf(tap)); // equation 1 of the 2017 paper, its three cases
-        whole += chord.y - chord.x; // equation 2: F from the same taps, whose errors it cancels
+        vec2 line = lineThrough(ball, uvOf(tap));
+        open += openLength(line, depthOf(tap) - depth); // equation 1 of 2017, its three cases
+        whole += line.y - line.x; // equation 2: F from the same taps, whose errors it cancels
     }
     return vec4(whole > 0.0 ? open / whole : 1.0);
 }

@@ -9,7 +9,7 @@
 //
 // Departures:
 // - Lines follow lines of sight through pixel centres and are clipped at the camera
-//   (tangent_ball.glsl); the paper's prepared lengths hold for parallel ones. Equation 2's sum is
+//   (ball.glsl); the paper's prepared lengths hold for parallel ones. Equation 2's sum is
 //   taken over the lines themselves.
 // - The disc that decides on the number of lines is given in pixels, not in shares of the screen:
 //   it is pixels that the depth buffer has no more of.
@@ -22,9 +22,9 @@
 //   line's pixel shows: at the sample point itself, a plane would tint itself by c = 1/4.
 // - Bright surfaces are spared after the filter, so that a lamp does not lighten the wall beside.
 
+#include "ball.glsl"
 #include "blur_normal.glsl"
 #include "noise.glsl"
-#include "tangent_ball.glsl"
 
 // Section 4.5: nine rotations dealt over 3 x 3 pixels in steps of 160 degrees, so that neighbours
 // have unlike ones; the seed turns them all. Columns turn a point.
@@ -35,12 +35,20 @@ mat2 tileRotation(ivec2 pixel) {
     return mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
 }
 
+// The pixel that shows a point of the disc through the ball's centre, parallel to the screen;
+// `offset` in ball radii.
+ivec2 discPixel(Ball ball, vec2 offset) {
+    vec3 centre = viewPosition(ball.uv, ball.depth) + ball.toCentre;
+    vec2 uv = uvFromView(centre + vec3(offset * ball.radius, 0.0));
+    return pixelOf(clamp(uv, 0.0, 1.0)); // first: a whole number cannot hold just any float
+}
+
 bool hasSet(int count) { return count >= 2 && count <= 32 && (count & (count - 1)) == 0; }
 int firstPoint(int count) { return hasSet(count) ? count - 2 : 62; }
 
 // Section 4.1: two lines up to the given diameter of the ball's disc, twice as many for twice the
 // area.
-int lineCount(TangentBall ball) {
+int lineCount(Ball ball) {
     int most = int(settings.samples);
     if (settings.adaptive < 0.5)
         return most;
@@ -60,7 +68,7 @@ float blockedShare(vec2 line, float scene) {
 }
 
 // Equations 1 and 2.
-float openFraction(ivec2 pixel, TangentBall ball, int count) {
+float openFraction(ivec2 pixel, Ball ball, int count) {
     mat2 rotation = tileRotation(pixel);
     int first = firstPoint(count);
     float blocked = 0.0, total = 0.0;
@@ -74,8 +82,8 @@ float openFraction(ivec2 pixel, TangentBall ball, int count) {
     return total > 0.0 ? 1.0 - blocked / total : 1.0; // a ball smaller than a pixel can be missed
 }
 
-TangentBall ballOf(ivec2 pixel, float depth) {
-    return tangentBall(pixel, depth, normalOf(pixel), settings.radius);
+Ball ballOf(ivec2 pixel, float depth) {
+    return tangentBall(pixel, depth, normalOf(pixel));
 }
 
 // Section 4.2: eight lines for the pixel in the middle of each 8 x 8.
@@ -97,7 +105,7 @@ bool maybeOccluded(ivec2 pixel) {
 
 // Lines after both savings. The careful pre-pass spends four on what it finds open, whatever the
 // quality, the greedy one none.
-int linesFor(ivec2 pixel, TangentBall ball) {
+int linesFor(ivec2 pixel, Ball ball) {
     if (settings.culling < 0.5 || maybeOccluded(pixel))
         return lineCount(ball);
     return settings.culling < 1.5 ? 0 : 4;
@@ -123,7 +131,7 @@ vec4 gather(ivec2 pixel) {
     float depth = depthOf(pixel);
     if (isEmpty(depth))
         return vec4(1.0);
-    TangentBall ball = ballOf(pixel, depth);
+    Ball ball = ballOf(pixel, depth);
     float visibility = openFraction(pixel, ball, linesFor(pixel, ball));
     return vec4(settings.blur < 0.5 ? spared(pixel, visibility) : visibility);
 }
@@ -165,7 +173,7 @@ vec4 tint(ivec2 pixel) {
     float depth = depthOf(pixel);
     if (isEmpty(depth))
         return vec4(0.0);
-    TangentBall ball = ballOf(pixel, depth);
+    Ball ball = ballOf(pixel, depth);
     vec3 position = viewPosition(ball.uv, depth), normal = normalOf(pixel), taken = vec3(0.0);
     mat2 rotation = tileRotation(pixel);
     int count = linesFor(pixel, ball), first = firstPoint(count);

@@ -15,15 +15,16 @@
 
 #include "ball.glsl"
 #include "blur_normal.glsl"
+#include "disc.glsl"
 
 vec4 gather(ivec2 pixel) {
     float depth = depthOf(pixel);
     if (isEmpty(depth))
         return vec4(1.0);
     bool clipped = settings.clipByNormal > 0.5;
-    vec3 position = viewPosition(uvOf(pixel), depth);
+    Ball ball = Ball(uvOf(pixel), depth, vec3(0.0), settings.radius);
     vec3 normal = normalOf(pixel);
-    Disc disc = discOf(position, settings.radius, pixel);
+    Disc disc = discOf(viewPosition(ball.uv, depth), ball.radius, pixel);
 
     int count = int(settings.samples);
     float open = 0.0, whole = 0.0;
@@ -32,11 +33,11 @@ vec4 gather(ivec2 pixel) {
         if (isOutside(uv))
             continue;
         ivec2 tap = pixelOf(uv);
-        vec2 chord = chordOf(uvOf(tap), position, settings.radius);
+        vec2 line = lineThrough(ball, uvOf(tap));
         if (clipped)
-            chord = clippedChord(chord, uvOf(tap), position, normal);
-        open += openLength(chord, depthOf(tap));
-        whole += chord.y - chord.x;
+            line = clippedLine(line, ball, uvOf(tap), normal);
+        open += openLength(line, depthOf(tap) - depth);
+        whole += line.y - line.x;
     }
     float visibility = whole > 0.0 ? open / whole : 1.0;
     return vec4(clipped ? visibility : min(2.0 * visibility, 1.0));
