@@ -33,7 +33,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"stimuli", {"stimuli", "renderer", "gl", "image", "protocols"}},
     {"experiment", {"experiment", "gl", "image", "protocols"}},
     {"analysis", {"analysis", "image", "protocols"}},
-    {"bench", {"bench", "renderer", "gl", "image", "protocols"}},
+    {"bench", {"bench", "stimuli", "report", "renderer", "gl", "image", "protocols"}},
 };
 
 // Libraries that one part keeps to itself.
