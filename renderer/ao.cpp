@@ -1,5 +1,7 @@
 #include "renderer/ao.h"
 
+#include "protocols/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -143,6 +145,10 @@ gl::ShaderText splatShader(const Settings& settings) {
     return text;
 }
 
+int downscaleOf(const Settings& settings) {
+    return settings.has("downscale") ? static_cast<int>(settings["downscale"]) : 1;
+}
+
 int guardPixels(const Settings& settings, int height) {
     return settings.has("guardBand")
                ? static_cast<int>(std::ceil(settings["guardBand"] * static_cast<float>(height)))
@@ -163,6 +169,16 @@ ProxySpheres::ProxySpheres(std::span<const glm::vec4> spheres)
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
     : settings_(settingsBlock(settings)), open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
+    if (const int factor = downscaleOf(settings); factor > 1) {
+        if (gl::channelsOf(enabledPasses(settings).back()->format) == 4)
+            throw Error(fmt::format("expected downscale = 1 where {} sends light (four channels "
+                                    "are not upsampled), found {}",
+                                    technique.id, factor));
+        reduction_.emplace(factor, technique.reads & normals, width, height,
+                           enabledPasses(settings).back()->format);
+        width = reduction_->width();
+        height = reduction_->height();
+    }
     int unit = resultUnit;
     for (const Pass& pass : technique.passes) {
         const int own = unit++;
@@ -191,6 +207,11 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     gl::bindTexture(depthUnit, inputs.gbuffer.depth());
     if (inputs.gbuffer.occlusionNormal())
         gl::bindTexture(normalUnit, *inputs.gbuffer.occlusionNormal());
+    if (reduction_) {
+        gl::bindTexture(depthUnit, reduction_->depth());
+        if (reduction_->normals())
+            gl::bindTexture(normalUnit, *reduction_->normals());
+    }
     if (inputs.light) {
         gl::bindTexture(albedoUnit, inputs.gbuffer.albedo());
         gl::bindTexture(ambientUnit, inputs.light->ambient());
@@ -238,13 +259,36 @@ void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const
     target.readAll();
 }
 
-const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs) const {
+const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
+                                               const PassObserver& issued) const {
+    const auto tell = [&](const Pass& pass) {
+        if (issued)
+            issued(pass);
+    };
+    if (reduction_) {
+        assert(inputs.frame && "downscale needs the frame");
+        reduction_->reduce(inputs.gbuffer, *inputs.frame);
+        tell(Reduction::reducePass);
+    }
     bindInputs(inputs);
     for (const Step& step : steps_) {
         run(step, inputs);
         gl::bindTexture(step.unit, step.target.texture());
+        tell(*step.pass);
     }
-    return steps_.empty() ? open_ : steps_.back().target.texture();
+    const gl::Texture& result = steps_.empty() ? open_ : steps_.back().target.texture();
+    if (!reduction_)
+        return result;
+    const gl::Texture& full = reduction_->upsample(result, inputs.gbuffer);
+    tell(Reduction::upsamplePass);
+    return full;
+}
+
+double OcclusionPasses::bytes() const {
+    double sum = reduction_ ? reduction_->bytes() : 0;
+    for (const Step& step : steps_)
+        sum += step.target.bytes();
+    return sum;
 }
 
 bool OcclusionPasses::sendsLight() const {

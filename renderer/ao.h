@@ -1,8 +1,10 @@
 #pragma once
 
 #include "renderer/light.h"
+#include "renderer/reduction.h"
 #include "renderer/settings.h"
 
+#include <functional>
 #include <optional>
 
 namespace obscura {
@@ -17,6 +19,8 @@ std::vector<const Pass*> enabledPasses(const Settings& settings);
 
 // Pixels that the technique wants rendered beyond each border of an image (guardBand).
 int guardPixels(const Settings& settings, int height);
+// Every which pixel across and down the technique works on.
+int downscaleOf(const Settings& settings);
 
 // The scene's proxy spheres where shaders can read them: world position, radius (metres).
 class ProxySpheres {
@@ -36,7 +40,11 @@ struct OcclusionInputs {
     const LightBuffers* light = nullptr;
     const Lighting* lighting = nullptr;
     const ProxySpheres* spheres = nullptr;
+    const Frame* frame = nullptr; // the one that is bound; for `downscale`
 };
+
+// Called after each pass has been issued, for timing.
+using PassObserver = std::function<void(const Pass&)>;
 
 // A technique's passes over a G-buffer of one size: depth (and what else it reads) in, visibility
 // out.
@@ -46,12 +54,16 @@ class OcclusionPasses {
 
     // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
     // texture lives as long as this object.
-    const gl::Texture& visibility(const OcclusionInputs& inputs) const;
+    const gl::Texture& visibility(const OcclusionInputs& inputs,
+                                  const PassObserver& issued = {}) const;
     // Whether that texture's other channels are light to add (technique.h).
     bool sendsLight() const;
 
     // What a pass gave in the last run, for tests and for looking at.
     const gl::SlicedTarget& result(std::string_view pass) const;
+
+    // Of all textures and buffers that exist for the technique.
+    double bytes() const;
 
   private:
     struct Step {
@@ -64,6 +76,7 @@ class OcclusionPasses {
     void bindInputs(const OcclusionInputs& inputs) const;
     void run(const Step& step, const OcclusionInputs& inputs) const;
 
+    mutable std::optional<Reduction> reduction_; // keeps its frame
     std::vector<Step> steps_;
     gl::UniformBuffer settings_;
     std::optional<gl::UniformBuffer> points_;

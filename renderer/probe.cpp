@@ -17,7 +17,8 @@ Level whiteLight() {
 
 // What a technique sees, with or without a guard band around the image.
 struct Probe::Sight {
-    gl::UniformBuffer frame;
+    Frame frame;
+    gl::UniformBuffer frameBlock;
     GBuffer gbuffer;
     LightBuffers light;
 };
@@ -46,9 +47,10 @@ const Probe::Sight& Probe::sight(int guard) const {
         const int width = width_ + 2 * guard, height = height_ + 2 * guard;
         const Frame frame =
             makeFrame(camera_, width_, height_, subject_.scene().bounds(), seed_, {0, 0}, guard);
-        known.reset(new Sight{frameBuffer(frame), GBuffer(width, height, {true, false, kind_}),
+        known.reset(new Sight{frame, frameBuffer(frame),
+                              GBuffer(width, height, {true, false, kind_}),
                               LightBuffers(width, height, false)});
-        bindFrame(known->frame);
+        bindFrame(known->frameBlock);
         subject_.pass().draw(subject_.scene(), frame, known->gbuffer);
         subject_.lighting().draw(known->gbuffer, known->light);
     }
@@ -73,9 +75,9 @@ Image Probe::visibility(const Settings& settings, const OcclusionPasses& passes)
     }
     const int guard = guardPixels(settings, height_), width = width_ + 2 * guard;
     const Sight& seen = sight(guard);
-    bindFrame(seen.frame);
-    const gl::Texture& texture =
-        passes.visibility({seen.gbuffer, &seen.light, &subject_.lighting(), &subject_.spheres()});
+    bindFrame(seen.frameBlock);
+    const gl::Texture& texture = passes.visibility(
+        {seen.gbuffer, &seen.light, &subject_.lighting(), &subject_.spheres(), &seen.frame});
     const std::vector<float> values =
         gl::readFloats(texture, width, height_ + 2 * guard, gl::Format::r32f);
     for (int y = guard + height_ - 1; y >= guard; --y) {

@@ -129,6 +129,8 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
         if (pass->stage == Stage::splat)
             hash.add(splatShader(settings).text());
     }
+    if (downscaleOf(settings) > 1)
+        hash.add(Reduction::reduceShader().text() + Reduction::upsampleShader().text());
     hash.add(compositeShader().text());
     if (settings.technique().reads & rays) // stands in for passes
         hash.add(rayTracerVersion());
@@ -280,14 +282,15 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                     result.layers[names[c]] = layerOf(gbuffer.target(), c);
         }
         clock.mark(times_.hash);
+        Frame seen = frame;                         // by the technique
         std::optional<gl::UniformBuffer> wideBlock; // occlusion reads it too
         if (padded) {
-            const Frame wide =
+            seen =
                 makeFrame(recipe.view.camera, recipe.width, recipe.height, stage_->scene->bounds(),
                           recipe.seed, jitterOf(i, recipe.antialiasing), guard);
-            wideBlock.emplace(frameBuffer(wide));
+            wideBlock.emplace(frameBuffer(seen));
             bindFrame(*wideBlock);
-            stage_->gbufferPass.draw(*stage_->scene, wide, *padded);
+            stage_->gbufferPass.draw(*stage_->scene, seen, *padded);
         }
         // The seed is each frame's own, so that frames average the rays' noise too.
         std::optional<gl::Texture> traced;
@@ -300,7 +303,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
         const gl::Texture& visibility =
             traced ? *traced
                    : occlusion.visibility({padded ? *padded : gbuffer, &light, &lighting,
-                                           stage_->spheres ? &*stage_->spheres : nullptr});
+                                           stage_->spheres ? &*stage_->spheres : nullptr, &seen});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard);
         clock.mark(times_.composite);

@@ -102,7 +102,9 @@ struct Technique {
 // know the technique: `radius` (metres) is multiplied by `radiusMultiplier` before the shader sees
 // it; the last pass's visibility v becomes max(0, 1 - intensity (1 - v))^power, clamped to [0, 1].
 // Matching (stimuli/match.h) fits the latter three. `guardBand` is the share of the image's height
-// that is rendered beyond each of its borders for the technique's eyes only.
+// that is rendered beyond each of its borders for the technique's eyes only. `downscale` runs all
+// passes on every nth pixel and spreads the result back (renderer/reduction.h); what sends light
+// cannot.
 
 std::span<const Technique> techniques();
 

@@ -56,14 +56,20 @@ struct ShaderTraits {
     static GLuint create(GLenum stage) { return glCreateShader(stage); }
     static void destroy(GLuint name) { glDeleteShader(name); }
 };
+struct QueryTraits {
+    static GLuint create(GLenum target) { GLuint name = 0; glCreateQueries(target, 1, &name); return name; }
+    static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
 // clang-format on
 
-// The argument is the target (textures: GL_TEXTURE_2D, ...), the stage (shaders), else GL_NONE.
+// The argument is the target (textures: GL_TEXTURE_2D, ...), the stage (shaders), what is asked
+// (queries: GL_TIMESTAMP), else GL_NONE.
 using Texture = Object<TextureTraits>;
 using Buffer = Object<BufferTraits>;
 using Framebuffer = Object<FramebufferTraits>;
 using VertexArray = Object<VertexArrayTraits>;
 using ProgramObject = Object<ProgramTraits>;
 using ShaderObject = Object<ShaderTraits>;
+using QueryObject = Object<QueryTraits>;
 
 } // namespace obscura::gl

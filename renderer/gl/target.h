@@ -15,6 +15,7 @@ namespace obscura::gl {
 enum class Format { none, r8, r16f, r32f, rg16f, rg32f, rgba8, srgb8, rgba16f, rgba32f, depth32f };
 
 int channelsOf(Format format);
+int bytesOf(Format format);          // per pixel
 const char* glslName(Format format); // as an image's layout qualifier: "r16f"
 
 // A texture that shaders read by texelFetch or with nearest filtering, clamped at the border;
@@ -65,6 +66,7 @@ class Target {
     }
     Format format(int index) const { return formats_[static_cast<std::size_t>(index)]; }
     int count() const { return static_cast<int>(colours_.size()); }
+    double bytes() const; // of its textures
 
   private:
     int width_, height_;
@@ -96,6 +98,7 @@ class SlicedTarget {
     int height(int level = 0) const;
     const Texture& texture() const { return texture_; }
     Format format() const { return format_; }
+    double bytes() const; // all slices
     const Slices& slices() const { return slices_; }
 
   private:

@@ -16,7 +16,7 @@ constexpr Parameter crytekParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
 // The accessibility curve of appendix B, with lengths in radii instead of the appendix's scene
 // units, so that one setting serves scenes of any size.
@@ -58,7 +58,8 @@ constexpr Parameter blizzardParameters[] = {samples(24, "Jakobsen 2010, section 
                                             blur,
                                             radiusMultiplier(),
                                             intensity(),
-                                            power()};
+                                            power(),
+                                            downscale};
 
 constexpr Parameter blizzardCorrectedParameters[] = {
     samples(24, "Jakobsen 2010, section 5.3"),
@@ -74,7 +75,8 @@ constexpr Parameter blizzardCorrectedParameters[] = {
     blur,
     radiusMultiplier(),
     intensity(),
-    power()};
+    power(),
+    downscale};
 
 constexpr Parameter rayMarchParameters[] = {
     samples(30, "Jakobsen 2010, section 5.3", "directions per pixel"),
@@ -88,7 +90,8 @@ constexpr Parameter rayMarchParameters[] = {
     blur,
     radiusMultiplier(),
     intensity(),
-    power()};
+    power(),
+    downscale};
 
 constexpr Technique crytek{"crytek",
                            "Crytek 2007",

@@ -34,6 +34,15 @@ constexpr Parameter power(float value = 1, std::string_view source = "neutral") 
     return {"power", Unit::ratio, "exponent of visibility", value, 0.01f, 64, source};
 }
 
+constexpr Parameter downscale{
+    "downscale",
+    Unit::count,
+    "1: works on every pixel; n: on every nth across and down, and is spread back over the rest",
+    1,
+    1,
+    4,
+    "the paper, whose passes are all of one size"};
+
 constexpr Parameter samples(float value, std::string_view source,
                             std::string_view meaning = "points tested per pixel") {
     return {"samples", Unit::count, meaning, value, 1, 16384, source};

@@ -56,7 +56,7 @@ constexpr Parameter gtaoParameters[] = {
     radiusMultiplier(1.457f, "XeGTAO, tuned against ray tracing"),
     intensity(),
     power(2.2f, "XeGTAO, tuned against ray tracing"),
-};
+    downscale};
 
 constexpr Parameter bitmaskParameters[] = {
     radius,
@@ -71,7 +71,7 @@ constexpr Parameter bitmaskParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
 constexpr Pass depthLevelsPass{.name = "depths", .format = Format::r32f, .levels = 5};
 constexpr Pass edgesPass{.name = "edges", .format = Format::rgba8, .enabledBy = "denoise"};

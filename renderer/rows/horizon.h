@@ -66,12 +66,13 @@ constexpr Parameter hbaoParameters[] = {
     horizonBlurRadius(3, horizonSource),
     radiusMultiplier(),
     horizonIntensity,
-    power()};
+    power(),
+    downscale};
 
 constexpr Parameter hbaoDeinterleavedParameters[] = {
     horizonDirections,  horizonSteps,     radius,      horizonBias,
     horizonAttenuation, horizonReach,     horizonBlur, horizonBlurRadius(3, horizonSource),
-    radiusMultiplier(), horizonIntensity, power()};
+    radiusMultiplier(), horizonIntensity, power(),     downscale};
 
 constexpr Parameter hbaoPlusParameters[] = {
     horizonDirections,
@@ -87,7 +88,8 @@ constexpr Parameter hbaoPlusParameters[] = {
     horizonBlurRadius(4, "HBAO+ 3.0, README"),
     radiusMultiplier(),
     intensity(2, "HBAO+ 3.0, CoarseAO: twice the mean"),
-    power(2, "HBAO+ 3.0, README")};
+    power(2, "HBAO+ 3.0, README"),
+    downscale};
 
 constexpr Parameter multiScaleParameters[] = {
     horizonDirections,
@@ -106,7 +108,8 @@ constexpr Parameter multiScaleParameters[] = {
     horizonBlurRadius(3, horizonSource),
     radiusMultiplier(),
     horizonIntensity,
-    power()};
+    power(),
+    downscale};
 
 constexpr Pass horizonPasses[] = {
     {.name = "gather", .format = Format::r16f},

@@ -28,7 +28,8 @@ constexpr Parameter ssdoParameters[] = {
     blur,
     radiusMultiplier(),
     intensity(),
-    power()};
+    power(),
+};
 
 constexpr Pass ssdoPasses[] = {
     {.name = "gather", .format = Format::rgba16f},
@@ -72,7 +73,8 @@ constexpr Parameter proxySpheresParameters[] = {
     blur,
     radiusMultiplier(),
     intensity(),
-    power()};
+    power(),
+    downscale};
 
 constexpr Pass proxySpheresPasses[] = {
     {.name = "detail", .format = Format::r16f, .enabledBy = "detail"},

@@ -77,20 +77,19 @@ constexpr Parameter alchemyParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(1, alchemyPaper),
-};
+    downscale};
 
-constexpr Parameter alchemyFormOneParameters[] = {
-    samples(12, "McGuire et al. 2011, figure 1"),
-    radius,
-    depthBias,
-    falloffStart,
-    bilateral,
-    blurRadius,
-    depthVariance,
-    radiusMultiplier(),
-    intensity(),
-    power(1, alchemyPaper),
-};
+constexpr Parameter alchemyFormOneParameters[] = {samples(12, "McGuire et al. 2011, figure 1"),
+                                                  radius,
+                                                  depthBias,
+                                                  falloffStart,
+                                                  bilateral,
+                                                  blurRadius,
+                                                  depthVariance,
+                                                  radiusMultiplier(),
+                                                  intensity(),
+                                                  power(1, alchemyPaper),
+                                                  downscale};
 
 constexpr Parameter alchemyCs562Parameters[] = {
     samples(18, "ours: the spiral's nine directions twice"),
@@ -103,7 +102,7 @@ constexpr Parameter alchemyCs562Parameters[] = {
     radiusMultiplier(),
     intensity(1, "Kim 2022, first picture"),
     power(1, "Kim 2022, first picture"),
-};
+    downscale};
 
 constexpr std::string_view saoProgram = "the authors' program, for a radius of 1 m";
 constexpr Parameter saoParameters[] = {
@@ -131,7 +130,7 @@ constexpr Parameter saoParameters[] = {
     radiusMultiplier(),
     intensity(1, "the authors' program"),
     power(),
-};
+    downscale};
 
 constexpr Pass saoPasses[] = {
     {.name = "hierarchy", .format = Format::r32f, .levels = 6},

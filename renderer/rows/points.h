@@ -15,7 +15,7 @@ constexpr Parameter starcraftParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
 constexpr Parameter crytekShaderX7Parameters[] = {
     samples(24, "Jakobsen 2010, section 5.3", "points tested per pixel; whole cubes of eight"),
@@ -24,7 +24,7 @@ constexpr Parameter crytekShaderX7Parameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
 constexpr Technique starcraft{"starcraft",
                               "StarCraft II, LearnOpenGL form",

@@ -16,7 +16,8 @@ constexpr Parameter rayTracedParameters[] = {
      0, 0, 2, "ours: what ambient light of constant radiance needs"},
     radiusMultiplier(),
     intensity(),
-    power()};
+    power(),
+};
 
 constexpr Technique rayTraced{
     "ray_traced",

@@ -51,7 +51,7 @@ constexpr Parameter vaoPlusPlusParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
 constexpr Pass vaoPlusPlusPasses[] = {
     {.name = "cull", .format = Format::r16f, .enabledBy = "culling", .scale = 8},

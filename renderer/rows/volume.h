@@ -24,7 +24,7 @@ constexpr Parameter obscuranceParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
 constexpr Parameter obscurancePointsParameters[] = {
     samples(33, "Loos and Sloan 2010, figure 1a"),
@@ -36,14 +36,10 @@ constexpr Parameter obscurancePointsParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
-constexpr Parameter obscuranceAreaParameters[] = {
-    radius,
-    radiusMultiplier(),
-    intensity(),
-    power(),
-};
+constexpr Parameter obscuranceAreaParameters[] = {radius, radiusMultiplier(), intensity(), power(),
+                                                  downscale};
 
 constexpr Pass obscuranceAreaPasses[] = {
     {.name = "moments", .format = Format::rg32f, .levels = 12},
@@ -58,7 +54,7 @@ constexpr Parameter vaoParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-};
+    downscale};
 
 constexpr Technique obscurance{"volumetric_obscurance",
                                "Volumetric obscurance, lines",

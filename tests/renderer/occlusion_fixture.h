@@ -79,7 +79,7 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
         fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
     const OcclusionPasses passes(settings, fullWidth, fullHeight);
     const gl::Texture& texture =
-        passes.visibility({gbuffer, &light, &lighting, fitted ? &*fitted : nullptr});
+        passes.visibility({gbuffer, &light, &lighting, fitted ? &*fitted : nullptr, &frame});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
