@@ -3,12 +3,14 @@
 
 #include "bench/normals.h"
 #include "bench/rays.h"
+#include "bench/timing.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
 
 namespace {
 
@@ -22,6 +24,8 @@ struct Options {
     double fovDegrees = 60;
     int width = 640, height = 360;
     TraceSettings settings;
+    std::vector<std::string> techniques;
+    double seconds = 5;
 };
 
 // Peak memory of this process, MiB, as Linux counts it; 0 where there is no /proc.
@@ -81,6 +85,57 @@ int normals(const Options& options) {
     return 0;
 }
 
+// "hbao steps=8 blur=0" on a view of that radius.
+Settings settingsFrom(const std::string& text, double radius) {
+    std::istringstream words(text);
+    std::string word;
+    words >> word;
+    TechniqueSetting setting{word, word, {}, {}};
+    while (words >> word) {
+        const std::size_t equals = word.find('=');
+        char* end = nullptr;
+        const double value =
+            equals == std::string::npos ? 0 : std::strtod(word.c_str() + equals + 1, &end);
+        if (!end || *end || end == word.c_str() + equals + 1)
+            throw Error(fmt::format("expected SETTING=NUMBER after the technique, found \"{}\" in "
+                                    "\"{}\"",
+                                    word, text));
+        setting.settings.push_back({word.substr(0, equals), value, {}});
+    }
+    return settingsOf(setting, radius);
+}
+
+int passes(const Options& options) {
+    const Scene scene = sceneOf(options);
+    const gl::Context context;
+    const gl::TimingChoice choice = gl::honestTiming();
+    const Subject subject(scene);
+    const Probe probe(subject, cameraOf(options), options.width, options.height, Normals::smooth,
+                      options.settings.seed);
+    std::vector<Settings> techniques;
+    for (const std::string& text : options.techniques)
+        techniques.push_back(settingsFrom(text, options.settings.radius));
+    TimingPlan plan;
+    plan.seconds = options.seconds;
+    plan.timing = choice.timing;
+    const auto times = timeTechniques(probe, techniques, options.settings.radius, plan);
+    fmt::print("{}, {}x{}, {}; {}\n", options.scene, options.width, options.height,
+               context.driver().renderer, choice.reason);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        const TechniqueTime& time = times[i];
+        fmt::print("{}: {:.2f} ms ({:.2f} ... {:.2f}, {} frames); {:.3f} x G-buffer ({:.2f} ms), "
+                   "{:.3f} x starcraft 16; {:.1f} bytes a pixel\n ",
+                   options.techniques[i], time.total.median, time.total.low, time.total.high,
+                   time.frames, time.total.median / time.gbuffer, time.gbuffer,
+                   time.total.median / time.starcraft,
+                   time.bytes / (1.0 * options.width * options.height));
+        for (const PassTime& pass : time.passes)
+            fmt::print(" {} {:.2f}", pass.name, pass.median);
+        fmt::print("\n");
+    }
+    return 0;
+}
+
 int run(int argc, char** argv) {
     Options options;
     const char* scenes = std::getenv("OBSCURA_SCENES");
@@ -90,7 +145,13 @@ int run(int argc, char** argv) {
     CLI::App* ray = app.add_subcommand("rays", "our ray tracing beside a bare Embree loop");
     CLI::App* normal =
         app.add_subcommand("normals", "what face, smooth and mapped normals do to visibility");
-    for (CLI::App* command : {ray, normal}) {
+    CLI::App* pass = app.add_subcommand(
+        "passes", "what each pass of some techniques takes, all timed in turn on one view");
+    pass->add_option("techniques", options.techniques,
+                     "technique and settings in one argument: \"hbao steps=8 blur=0\"")
+        ->required();
+    pass->add_option("--seconds", options.seconds, "of each, or 200 frames")->capture_default_str();
+    for (CLI::App* command : {ray, normal, pass}) {
         command->add_option("--scene", options.scene, "built-in scene or file in the scenes folder")
             ->capture_default_str();
         command->add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
@@ -101,8 +162,10 @@ int run(int argc, char** argv) {
         for (auto [name, value] :
              {std::pair("--width", &options.width), std::pair("--height", &options.height)})
             command->add_option(name, *value)->check(CLI::Range(1, 16384))->capture_default_str();
-        command->add_option("--rays", options.settings.rays, "per pixel")->capture_default_str();
         command->add_option("--radius", options.settings.radius, "metres")->capture_default_str();
+    }
+    for (CLI::App* command : {ray, normal}) {
+        command->add_option("--rays", options.settings.rays, "per pixel")->capture_default_str();
         command->add_option("--integral", options.integral)
             ->check(CLI::IsMember(integralNames()))
             ->capture_default_str();
@@ -111,7 +174,7 @@ int run(int argc, char** argv) {
     const std::vector<std::string>& names = integralNames();
     options.settings.integral = static_cast<Integral>(
         std::find(names.begin(), names.end(), options.integral) - names.begin());
-    return ray->parsed() ? rays(options) : normals(options);
+    return ray->parsed() ? rays(options) : normal->parsed() ? normals(options) : passes(options);
 }
 
 } // namespace

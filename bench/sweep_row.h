@@ -30,7 +30,8 @@ struct SweepRow {
 
     int frames = 0;               // timed
     Milliseconds total;           // all passes of the technique
-    std::array<double, 4> work{}; // medians by kind of work, in the order of workNames(); parts
+    std::array<double, 4> work{}; // medians by kind of work, in the order of workNames()
+                                  // (technique.h); parts
                                   // of total
     double gbuffer = 0;           // median of the same run: depth, and the normals that it reads
     double toGbuffer = 0, toStarcraft = 0; // ratios of medians in the same run; the latter to
@@ -45,9 +46,6 @@ struct SweepRow {
     std::string
         thumbnail; // file in the sweep's folder, or "": matched visibility, its error beside it
 };
-
-// "prepare", "gather", "filter", "upsample": in the order of the enumeration Work (technique.h).
-const std::array<std::string, 4>& workNames();
 
 // How cost grows: one configuration's median at one value of one axis.
 struct GrowthRow {

@@ -145,6 +145,27 @@ gl::ShaderText splatShader(const Settings& settings) {
     return text;
 }
 
+double occlusionBytes(const Settings& settings, int width, int height) {
+    const int factor = downscaleOf(settings);
+    const auto smaller = [](int size, int scale) { return (size + scale - 1) / scale; };
+    double bytes = 0;
+    for (const Pass* pass : enabledPasses(settings)) {
+        const int across = smaller(smaller(width, factor), pass->scale),
+                  down = smaller(smaller(height, factor), pass->scale);
+        for (int level = 0; level < pass->levels; ++level)
+            bytes += 1.0 * std::max(across >> level, 1) * std::max(down >> level, 1) *
+                     pass->layers * gl::bytesOf(pass->format);
+    }
+    if (factor > 1) {
+        const double normal =
+            settings.technique().reads & normals ? bytesOf(gl::Format::rgba16f) : 0;
+        bytes += 1.0 * smaller(width, factor) * smaller(height, factor) *
+                     (bytesOf(gl::Format::r32f) + normal) +
+                 1.0 * width * height * bytesOf(enabledPasses(settings).back()->format);
+    }
+    return bytes;
+}
+
 int downscaleOf(const Settings& settings) {
     return settings.has("downscale") ? static_cast<int>(settings["downscale"]) : 1;
 }
@@ -282,13 +303,6 @@ const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
     const gl::Texture& full = reduction_->upsample(result, inputs.gbuffer);
     tell(Reduction::upsamplePass);
     return full;
-}
-
-double OcclusionPasses::bytes() const {
-    double sum = reduction_ ? reduction_->bytes() : 0;
-    for (const Step& step : steps_)
-        sum += step.target.bytes();
-    return sum;
 }
 
 bool OcclusionPasses::sendsLight() const {

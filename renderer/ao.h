@@ -19,6 +19,8 @@ std::vector<const Pass*> enabledPasses(const Settings& settings);
 
 // Pixels that the technique wants rendered beyond each border of an image (guardBand).
 int guardPixels(const Settings& settings, int height);
+// Of GPU memory that the technique's passes write to, at this size.
+double occlusionBytes(const Settings& settings, int width, int height);
 // Every which pixel across and down the technique works on.
 int downscaleOf(const Settings& settings);
 
@@ -61,9 +63,6 @@ class OcclusionPasses {
 
     // What a pass gave in the last run, for tests and for looking at.
     const gl::SlicedTarget& result(std::string_view pass) const;
-
-    // Of all textures and buffers that exist for the technique.
-    double bytes() const;
 
   private:
     struct Step {

@@ -20,12 +20,18 @@ struct Probe::Sight {
     Frame frame;
     gl::UniformBuffer frameBlock;
     GBuffer gbuffer;
-    LightBuffers light;
+    mutable std::optional<LightBuffers> light; // once a technique has read it
 };
 
 Subject::Subject(const Scene& scene)
-    : scene_(scene), lighting_(whiteLight(), scene_, std::filesystem::path()),
-      spheres_(proxySpheres(scene)) {}
+    : triangles_{scene.vertices, scene.indices, {}, {}, {}, {}, {}}, scene_(scene),
+      lighting_(whiteLight(), scene_, std::filesystem::path()) {}
+
+const ProxySpheres& Subject::spheres() const {
+    if (!spheres_)
+        spheres_.emplace(proxySpheres(triangles_));
+    return *spheres_;
+}
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
              std::uint64_t seed)
@@ -47,19 +53,42 @@ const Probe::Sight& Probe::sight(int guard) const {
         const int width = width_ + 2 * guard, height = height_ + 2 * guard;
         const Frame frame =
             makeFrame(camera_, width_, height_, subject_.scene().bounds(), seed_, {0, 0}, guard);
-        known.reset(new Sight{frame, frameBuffer(frame),
-                              GBuffer(width, height, {true, false, kind_}),
-                              LightBuffers(width, height, false)});
-        bindFrame(known->frameBlock);
-        subject_.pass().draw(subject_.scene(), frame, known->gbuffer);
-        subject_.lighting().draw(known->gbuffer, known->light);
+        known.reset(
+            new Sight{frame, frameBuffer(frame), GBuffer(width, height, {true, false, kind_}), {}});
+        draw(*known);
     }
     return *known;
 }
 
+void Probe::draw(const Sight& sight) const {
+    bindFrame(sight.frameBlock);
+    subject_.pass().draw(subject_.scene(), sight.frame, sight.gbuffer);
+}
+
+void Probe::drawGBuffer() const { draw(sight(0)); }
+
 OcclusionPasses Probe::passesFor(const Settings& settings) const {
     const int guard = guardPixels(settings, height_);
     return OcclusionPasses(settings, width_ + 2 * guard, height_ + 2 * guard);
+}
+
+const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& passes,
+                              const PassObserver& issued) const {
+    const Sight& seen = sight(guardPixels(settings, height_));
+    OcclusionInputs inputs{.gbuffer = seen.gbuffer, .frame = &seen.frame};
+    bindFrame(seen.frameBlock);
+    if (settings.technique().reads & light) {
+        if (!seen.light) {
+            seen.light.emplace(seen.gbuffer.target().width(), seen.gbuffer.target().height(),
+                               false);
+            subject_.lighting().draw(seen.gbuffer, *seen.light);
+        }
+        inputs.light = &*seen.light;
+        inputs.lighting = &subject_.lighting();
+    }
+    if (settings.technique().reads & spheres)
+        inputs.spheres = &subject_.spheres();
+    return passes.visibility(inputs, issued);
 }
 
 Image Probe::visibility(const Settings& settings) const {
@@ -74,12 +103,8 @@ Image Probe::visibility(const Settings& settings, const OcclusionPasses& passes)
         return image;
     }
     const int guard = guardPixels(settings, height_), width = width_ + 2 * guard;
-    const Sight& seen = sight(guard);
-    bindFrame(seen.frameBlock);
-    const gl::Texture& texture = passes.visibility(
-        {seen.gbuffer, &seen.light, &subject_.lighting(), &subject_.spheres(), &seen.frame});
     const std::vector<float> values =
-        gl::readFloats(texture, width, height_ + 2 * guard, gl::Format::r32f);
+        gl::readFloats(run(settings, passes), width, height_ + 2 * guard, gl::Format::r32f);
     for (int y = guard + height_ - 1; y >= guard; --y) {
         const auto row = values.begin() + y * width + guard;
         image.pixels.insert(image.pixels.end(), row, row + width_);

@@ -9,8 +9,9 @@
 
 namespace obscura {
 
-// A scene with all that techniques may read of it, whatever the camera. Its light is constant and
-// white, so that those which read light see only geometry.
+// A scene with all that techniques may read of it, whatever the camera; proxy spheres are fitted
+// when first asked for. Its light is constant and white, so that those which read light see only
+// geometry.
 class Subject {
   public:
     explicit Subject(const Scene& scene);
@@ -18,13 +19,14 @@ class Subject {
     const GpuScene& scene() const { return scene_; }
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
-    const ProxySpheres& spheres() const { return spheres_; }
+    const ProxySpheres& spheres() const;
 
   private:
+    Scene triangles_; // alone
     GpuScene scene_;
     GBufferPass pass_;
     Lighting lighting_;
-    ProxySpheres spheres_;
+    mutable std::optional<ProxySpheres> spheres_;
 };
 
 // One view of a subject, drawn once, to run techniques on again and again; what matching and
@@ -43,6 +45,13 @@ class Probe {
     Image visibility(const Settings& settings, const OcclusionPasses& passes) const;
     OcclusionPasses passesFor(const Settings& settings) const;
 
+    // The same without fetching the picture: what there is to time.
+    const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes,
+                           const PassObserver& issued = {}) const;
+    void drawGBuffer() const; // once more
+
+    int width() const { return width_; }
+    int height() const { return height_; }
     // For references to trace from.
     const Surfaces& surfaces() const { return surfaces_; }
     // Where a surface shows, rows as in visibility(): others are open by definition, and no error
@@ -52,6 +61,7 @@ class Probe {
   private:
     struct Sight;
     const Sight& sight(int guard) const;
+    void draw(const Sight& sight) const;
 
     const Subject& subject_;
     Camera camera_;

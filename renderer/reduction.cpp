@@ -87,6 +87,4 @@ const gl::Texture& Reduction::upsample(const gl::Texture& visibility, const GBuf
     return full_.colour(0);
 }
 
-double Reduction::bytes() const { return picked_.bytes() + full_.bytes(); }
-
 } // namespace obscura

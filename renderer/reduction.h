@@ -30,12 +30,12 @@ class Reduction {
     const gl::Texture& upsample(const gl::Texture& visibility, const GBuffer& gbuffer);
 
     // As observers see them.
-    static constexpr Pass reducePass{.name = "reduce", .format = gl::Format::r32f};
-    static constexpr Pass upsamplePass{.name = "upsample", .format = gl::Format::r16f};
+    static constexpr Pass reducePass{
+        .name = "reduce", .format = gl::Format::r32f, .work = Work::prepare};
+    static constexpr Pass upsamplePass{
+        .name = "upsample", .format = gl::Format::r16f, .work = Work::upsample};
     static gl::ShaderText reduceShader();
     static gl::ShaderText upsampleShader();
-    // Bytes of its textures.
-    double bytes() const;
 
   private:
     int factor_;

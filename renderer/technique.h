@@ -4,7 +4,9 @@
 
 #include <glm/glm.hpp>
 
+#include <array>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -45,6 +47,16 @@ enum class Stage {
              // fitted one x `sphereSize`
 };
 
+// What a pass is for; benches sum times by it.
+enum class Work {
+    prepare, // levels and layers of depth, edges, what may be skipped
+    gather,  // the occlusion estimate itself, and putting its parts together
+    filter,  // blurs and denoisers
+    upsample // from a reduced resolution to the full one
+};
+// "prepare", "gather", "filter", "upsample".
+const std::array<std::string, 4>& workNames();
+
 // One pass. Later passes read its output from a sampler called nameResult.
 struct Pass {
     std::string_view name;
@@ -58,6 +70,7 @@ struct Pass {
     int layers =
         1; // above 1: vec4 name(ivec2 pixel, int layer), and nameResult is a sampler2DArray
     Stage stage = Stage::screen;
+    Work work = Work::gather;
     std::string_view file = {}; // of the shader folder; without it ao/<id of technique>.glsl
 };
 

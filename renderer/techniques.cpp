@@ -48,6 +48,11 @@ static_assert(wellFormed(table));
 
 } // namespace
 
+const std::array<std::string, 4>& workNames() {
+    static const std::array<std::string, 4> names{"prepare", "gather", "filter", "upsample"};
+    return names;
+}
+
 std::span<const Technique> techniques() { return table; }
 
 const Technique& technique(std::string_view id) {

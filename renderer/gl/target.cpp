@@ -208,13 +208,6 @@ void Target::clearDepth(float value) const {
     glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &value);
 }
 
-double Target::bytes() const {
-    double perPixel = depth_.name() ? bytesOf(Format::depth32f) : 0;
-    for (const Format format : formats_)
-        perPixel += bytesOf(format);
-    return perPixel * width_ * height_;
-}
-
 SlicedTarget::SlicedTarget(int width, int height, Format format, Slices slices,
                            const std::string& label)
     : width_(width), height_(height), format_(format), slices_(slices),
@@ -270,12 +263,5 @@ void SlicedTarget::bindImage(int unit) const {
 
 int SlicedTarget::width(int level) const { return std::max(width_ >> level, 1); }
 int SlicedTarget::height(int level) const { return std::max(height_ >> level, 1); }
-
-double SlicedTarget::bytes() const {
-    double pixels = 0;
-    for (int level = 0; level < slices_.levels; ++level)
-        pixels += 1.0 * width(level) * height(level);
-    return pixels * slices_.layers * bytesOf(format_);
-}
 
 } // namespace obscura::gl

@@ -66,7 +66,6 @@ class Target {
     }
     Format format(int index) const { return formats_[static_cast<std::size_t>(index)]; }
     int count() const { return static_cast<int>(colours_.size()); }
-    double bytes() const; // of its textures
 
   private:
     int width_, height_;
@@ -98,7 +97,6 @@ class SlicedTarget {
     int height(int level = 0) const;
     const Texture& texture() const { return texture_; }
     Format format() const { return format_; }
-    double bytes() const; // all slices
     const Slices& slices() const { return slices_; }
 
   private:
