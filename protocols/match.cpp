@@ -11,15 +11,6 @@ namespace obscura {
 
 namespace {
 
-ImageSize parseSize(std::optional<TomlTable> table, ImageSize fallback) {
-    if (!table)
-        return fallback;
-    fallback.width = table->integer("width", 16, 8192, fallback.width);
-    fallback.height = table->integer("height", 16, 8192, fallback.height);
-    table->finish();
-    return fallback;
-}
-
 Truth parseTruth(const PlacedText& given) {
     const auto& all = truthNames();
     const auto found = std::find(all.begin(), all.end(), given.text);
@@ -95,26 +86,33 @@ void checkTechniques(const MatchStudy& study) {
                                            "leave this out, or give \"radiusMultiplier\"");
 }
 
-MatchStudy parseRoot(TomlTable root, std::string& includedSha256) {
+} // namespace
+
+ImageSize parseSize(TomlTable table) {
+    ImageSize size;
+    size.width = table.integer("width", 16, 8192);
+    size.height = table.integer("height", 16, 8192);
+    table.finish();
+    return size;
+}
+
+MatchStudy parseComparison(TomlTable& root, Lists lists, std::string& includedSha256) {
     MatchStudy study;
     study.name = root.text("name");
     checkName(root, "name", study.name, "-", " and hyphens");
     study.seed = static_cast<std::uint64_t>(root.integer("seed", 0, 2147483647));
-    study.image = parseSize(root.table("image"), study.image);
-    study.training = parseSize(root.table("training"), study.image);
+    if (auto training = root.table("training"))
+        study.training = parseSize(std::move(*training));
     study.normals = parseNormals(root);
     study.rays = root.integer("rays", 1, 1 << 20, study.rays);
     parseViews(root, study);
-    Techniques techniques = parseTechniques(root);
+    Techniques techniques = parseTechniques(root, lists);
     study.techniques = std::move(techniques.techniques);
     includedSha256 = techniques.includedSha256;
     checkTechniques(study);
     parseCriterion(root, study);
-    root.finish();
     return study;
 }
-
-} // namespace
 
 const std::vector<std::string>& truthNames() {
     static const std::vector<std::string> names{"cosine", "uniform", "falloff", "depth"};
@@ -124,7 +122,13 @@ const std::vector<std::string>& truthNames() {
 MatchStudy parseMatchStudy(const std::string& text, const std::string& file) {
     const toml::table table = parseToml(text, file);
     std::string includedSha256;
-    MatchStudy study = parseRoot(TomlTable(table, file, ""), includedSha256);
+    TomlTable root(table, file, "");
+    MatchStudy study = parseComparison(root, Lists::refused, includedSha256);
+    if (auto image = root.table("image"))
+        study.image = parseSize(std::move(*image));
+    if (!root.has("training"))
+        study.training = study.image;
+    root.finish();
     study.sha256 = studySha256(text, includedSha256);
     return study;
 }

@@ -45,6 +45,8 @@ Sun parseSun(TomlTable table) {
     return sun;
 }
 
+} // namespace
+
 Level parseLevel(const std::string& name, TomlTable table) {
     Level level;
     level.name = name;
@@ -73,6 +75,8 @@ Level parseLevel(const std::string& name, TomlTable table) {
     table.finish();
     return level;
 }
+
+namespace {
 
 // One member of a pair: a technique's name. A table could only say what must not differ.
 std::string parseMember(TomlTable& condition, const toml::node& node, std::size_t index,

@@ -42,22 +42,25 @@ Camera parseCamera(TomlTable table) {
 
 // The techniques of one file, `root` being its whole. A name that is taken is an error that says
 // where it was given first.
-void addTechniques(TomlTable& root, std::vector<TechniqueSetting>& techniques) {
+void addTechniques(TomlTable& root, std::vector<TechniqueSetting>& techniques, Lists lists) {
     for (auto& [name, table] : root.tables("techniques", "at least one technique, "
                                                          "[techniques.NAME]")) {
         const Place place = table.place();
+        const auto added = lists == Lists::varied
+                               ? parseVariants(name, std::move(table))
+                               : std::vector{parseTechnique(name, std::move(table))};
         for (const TechniqueSetting& other : techniques)
-            if (other.name == name)
+            if (other.name == added.front().name)
                 throw Error(place, fmt::format("expected a new name, found \"{}\", which {}:{} has "
                                                "given already",
                                                name, other.place.file, other.place.line));
-        techniques.push_back(parseTechnique(name, std::move(table)));
+        techniques.insert(techniques.end(), added.begin(), added.end());
     }
 }
 
 // A file of techniques alone; gives its text's hash.
 std::string includeFile(const PlacedText& included, const std::filesystem::path& folder,
-                        std::vector<TechniqueSetting>& techniques) {
+                        std::vector<TechniqueSetting>& techniques, Lists lists) {
     const std::string file = (folder / included.text).string();
     std::string text;
     try {
@@ -67,7 +70,7 @@ std::string includeFile(const PlacedText& included, const std::filesystem::path&
     }
     const toml::table table = parseToml(text, file);
     TomlTable root(table, file, "");
-    addTechniques(root, techniques);
+    addTechniques(root, techniques, lists);
     root.finish();
     return sha256(text);
 }
@@ -100,37 +103,78 @@ View parseView(const std::string& name, TomlTable table, bool withRadius) {
     return view;
 }
 
-// Which settings exist, and their ranges, the renderer's technique table knows; here they must be
-// numbers, or true and false for 1 and 0.
-TechniqueSetting parseTechnique(const std::string& name, TomlTable table) {
-    TechniqueSetting setting;
-    setting.name = name;
-    setting.place = table.place();
-    setting.technique = table.text("technique");
-    if (table.has("preset"))
-        setting.preset = {table.text("preset"), table.placeOf("preset")};
-    for (const auto& [key, value] : table.raw()) {
-        if (key.str() == "technique" || key.str() == "preset")
-            continue;
-        const std::string keyName(key.str());
-        if (!value.is_number() && !value.is_boolean())
+namespace {
+
+// One key's value, in a list or alone.
+void give(TechniqueSetting& setting, const TomlTable& table, const std::string& key,
+          const toml::node& value) {
+    const Place place = table.placeOf(value, table.pathOf(key));
+    if (key == "preset") {
+        if (!value.is_string())
             throw Error(
-                table.placeOf(value, table.pathOf(keyName)),
-                fmt::format("expected a number, true or false, found {}", TomlTable::spell(value)));
-        const double number =
-            value.is_boolean() ? (*value.value<bool>() ? 1.0 : 0.0) : *value.value<double>();
-        setting.settings.push_back({keyName, number, table.placeOf(keyName)});
+                place, fmt::format("expected a text in quotes, found {}", TomlTable::spell(value)));
+        setting.preset = {*value.value<std::string>(), place};
+        return;
     }
+    if (!value.is_number() && !value.is_boolean())
+        throw Error(place, fmt::format("expected a number, true or false, found {}",
+                                       TomlTable::spell(value)));
+    const double number =
+        value.is_boolean() ? (*value.value<bool>() ? 1.0 : 0.0) : *value.value<double>();
+    setting.settings.push_back({key, number, table.placeOf(key)});
+}
+
+// Each of `settings` with each value of a list.
+std::vector<TechniqueSetting> varied(const std::vector<TechniqueSetting>& settings,
+                                     const TomlTable& table, const std::string& key,
+                                     const toml::array& values) {
+    if (values.empty())
+        throw Error(table.placeOf(values, table.pathOf(key)),
+                    "expected at least one value in the list, found none");
+    std::vector<TechniqueSetting> result;
+    for (const TechniqueSetting& setting : settings)
+        for (const toml::node& value : values) {
+            result.push_back(setting);
+            give(result.back(), table, key, value);
+            result.back().name +=
+                key == "preset" ? fmt::format(" {}", result.back().preset->name)
+                                : fmt::format(" {}={:g}", key, result.back().settings.back().value);
+        }
+    return result;
+}
+
+} // namespace
+
+TechniqueSetting parseTechnique(const std::string& name, TomlTable table) {
+    TechniqueSetting setting{name, table.text("technique"), {}, table.place()};
+    for (const auto& [key, value] : table.raw())
+        if (key.str() != "technique")
+            give(setting, table, std::string(key.str()), value);
     return setting;
 }
 
-Techniques parseTechniques(TomlTable& root) {
+std::vector<TechniqueSetting> parseVariants(const std::string& name, TomlTable table) {
+    std::vector<TechniqueSetting> settings{{name, table.text("technique"), {}, table.place()}};
+    for (const auto& [key, value] : table.raw()) {
+        if (key.str() == "technique")
+            continue;
+        const std::string keyName(key.str());
+        if (const toml::array* values = value.as_array())
+            settings = varied(settings, table, keyName, *values);
+        else
+            for (TechniqueSetting& setting : settings)
+                give(setting, table, keyName, value);
+    }
+    return settings;
+}
+
+Techniques parseTechniques(TomlTable& root, Lists lists) {
     Techniques result;
     const auto folder = std::filesystem::path(root.place().file).parent_path();
     for (const PlacedText& included : root.texts("include", "names of files with techniques"))
-        result.includedSha256 += includeFile(included, folder, result.techniques);
+        result.includedSha256 += includeFile(included, folder, result.techniques, lists);
     if (root.has("techniques") || result.techniques.empty())
-        addTechniques(root, result.techniques);
+        addTechniques(root, result.techniques, lists);
     return result;
 }
 

@@ -19,13 +19,29 @@ View parseView(const std::string& name, TomlTable table, bool withRadius = true)
 // here they must be numbers, or true and false for 1 and 0.
 TechniqueSetting parseTechnique(const std::string& name, TomlTable table);
 
+// The same with lists where one value is expected (`steps = [2, 4, 8]`, `preset = ["low",
+// "high"]`): every combination, keys in alphabetical order, each named "NAME steps=2
+// preset=low" by what the lists give it.
+std::vector<TechniqueSetting> parseVariants(const std::string& name, TomlTable table);
+
 // All techniques of a study: those of the files that its `include` names (relative to the study's
 // folder), then its own. No two have one name.
 struct Techniques {
     std::vector<TechniqueSetting> techniques;
     std::string includedSha256; // of each included file, one after the other
 };
-Techniques parseTechniques(TomlTable& root);
+enum class Lists { refused, varied };
+Techniques parseTechniques(TomlTable& root, Lists lists = Lists::refused);
+
+// [levels.NAME], or another table of that kind.
+Level parseLevel(const std::string& name, TomlTable table);
+
+// What a study of techniques compares, on which views and with which truth: all of match.h but the
+// image's size.
+struct MatchStudy;
+MatchStudy parseComparison(TomlTable& root, Lists lists, std::string& includedSha256);
+struct ImageSize;
+ImageSize parseSize(TomlTable table);
 
 // Of a study's text and what it includes; without that, of the text alone.
 std::string studySha256(const std::string& text, const std::string& includedSha256);
