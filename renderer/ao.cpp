@@ -39,6 +39,13 @@ gl::UniformBuffer settingsBlock(const Settings& settings) {
     return gl::UniformBuffer(std::as_bytes(std::span(values)));
 }
 
+std::optional<gl::UniformBuffer> pointsOf(const Settings& settings) {
+    if (!settings.technique().points)
+        return std::nullopt;
+    const std::vector<glm::vec4> points = settings.technique().points(settings);
+    return gl::UniformBuffer(std::as_bytes(std::span(points)), gl::UniformBuffer::Kind::storage);
+}
+
 void declareBlocks(gl::ShaderText& text, const Technique& technique) {
     std::string block =
         fmt::format("layout(std140, binding = 0) uniform FrameBlock {{ Frame frame; "
@@ -188,7 +195,8 @@ ProxySpheres::ProxySpheres(std::span<const glm::vec4> spheres)
               gl::UniformBuffer::Kind::storage) {}
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
-    : settings_(settingsBlock(settings)), open_(gl::constantTexture({1, 1, 1, 1})) {
+    : settings_(settings), block_(settingsBlock(settings)),
+      open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
     if (const int factor = downscaleOf(settings); factor > 1) {
         if (gl::channelsOf(enabledPasses(settings).back()->format) == 4)
@@ -215,14 +223,22 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
                                            {pass.levels, pass.layers, pass.scale > 1}, label),
                           own});
     }
-    if (technique.points) {
-        const std::vector<glm::vec4> points = technique.points(settings);
-        points_.emplace(std::as_bytes(std::span(points)), gl::UniformBuffer::Kind::storage);
-    }
+    points_ = pointsOf(settings);
+}
+
+void OcclusionPasses::set(const Settings& settings) {
+    assert(&settings.technique() == &settings_.technique() &&
+           enabledPasses(settings) == enabledPasses(settings_) &&
+           downscaleOf(settings) == downscaleOf(settings_));
+    if (settings.values() == settings_.values())
+        return;
+    settings_ = settings;
+    block_ = settingsBlock(settings);
+    points_ = pointsOf(settings);
 }
 
 void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
-    settings_.bind(settingsBinding);
+    block_.bind(settingsBinding);
     if (points_)
         points_->bind(pointsBinding);
     gl::bindTexture(depthUnit, inputs.gbuffer.depth());

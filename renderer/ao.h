@@ -54,6 +54,10 @@ class OcclusionPasses {
   public:
     OcclusionPasses(const Settings& settings, int width, int height);
 
+    // From now on with other values, which spares compiling; passes and `downscale` must be the
+    // same.
+    void set(const Settings& settings);
+
     // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
     // texture lives as long as this object.
     const gl::Texture& visibility(const OcclusionInputs& inputs,
@@ -77,7 +81,8 @@ class OcclusionPasses {
 
     mutable std::optional<Reduction> reduction_; // keeps its frame
     std::vector<Step> steps_;
-    gl::UniformBuffer settings_;
+    Settings settings_;
+    gl::UniformBuffer block_;
     std::optional<gl::UniformBuffer> points_;
     gl::Texture open_; // what a technique without passes shows
     gl::ScreenTriangle triangle_;

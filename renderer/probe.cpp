@@ -92,10 +92,11 @@ const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& p
 }
 
 Image Probe::visibility(const Settings& settings) const {
-    return visibility(settings, passesFor(settings));
+    OcclusionPasses passes = passesFor(settings);
+    return visibility(settings, passes);
 }
 
-Image Probe::visibility(const Settings& settings, const OcclusionPasses& passes) const {
+Image Probe::visibility(const Settings& settings, OcclusionPasses& passes) const {
     Image image{width_, height_, 1, {}};
     if (settings.technique().passes.empty()) {
         image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
@@ -103,6 +104,7 @@ Image Probe::visibility(const Settings& settings, const OcclusionPasses& passes)
         return image;
     }
     const int guard = guardPixels(settings, height_), width = width_ + 2 * guard;
+    passes.set(settings);
     const std::vector<float> values =
         gl::readFloats(run(settings, passes), width, height_ + 2 * guard, gl::Format::r32f);
     for (int y = guard + height_ - 1; y >= guard; --y) {

@@ -39,10 +39,11 @@ class Probe {
     ~Probe();
     Probe(Probe&&) noexcept;
 
-    // Visibility as the technique's last pass leaves it: 1 channel, top row first. The passes may
-    // be shared by probes of one size: those of passesFor(settings).
+    // Visibility as the technique's last pass leaves it: 1 channel, top row first. The passes,
+    // those of passesFor() of like settings (OcclusionPasses::set), may be shared by probes of one
+    // size.
     Image visibility(const Settings& settings) const;
-    Image visibility(const Settings& settings, const OcclusionPasses& passes) const;
+    Image visibility(const Settings& settings, OcclusionPasses& passes) const;
     OcclusionPasses passesFor(const Settings& settings) const;
 
     // The same without fetching the picture: what there is to time.

@@ -189,10 +189,9 @@ class Matching {
     void addPartner();
     std::string keyOf(const TechniqueSetting& setting);
     MatchedTechnique matched(const TechniqueSetting& setting);
-    // Shaders take long to compile: shared by views of one radius and intensity.
-    using PassesOf = std::map<std::pair<double, double>, OcclusionPasses>;
+    Image visibility(const Case& at, const Settings& settings);
     Image rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
-                        double& probe, PassesOf& passes);
+                        double& probe);
     FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, double multiplier,
                       double& probe);
     Values fit(const TechniqueSetting& setting, std::string& note);
@@ -216,6 +215,9 @@ class Matching {
     std::map<std::string, std::unique_ptr<Probe>> probes_; // by camera's name and size
     std::vector<Case> cases_;
     std::vector<std::string> keys_; // of the techniques
+    // Shaders take long to compile: shared by all renderings of a technique at one size, which is
+    // that of training views or of others.
+    std::map<bool, OcclusionPasses> passes_;
     MatchResult result_;
 };
 
@@ -369,19 +371,22 @@ std::string Matching::keyOf(const TechniqueSetting& setting) {
     return hash.hex();
 }
 
+Image Matching::visibility(const Case& at, const Settings& settings) {
+    auto known = passes_.find(at.train);
+    if (known == passes_.end())
+        known = passes_.emplace(at.train, at.probe->passesFor(settings)).first;
+    return at.probe->visibility(settings, known->second);
+}
+
 // Raw visibility at a multiplier; `probe` is the intensity to try, and falls when that clamps.
 Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
-                              double& probe, PassesOf& passes) {
+                              double& probe) {
     Settings settings =
         settingsAt(setting, at.view, {{"radiusMultiplier", multiplier}, {"power", 1}});
     const auto render = [&] {
         if (settings.has("intensity"))
             settings.set("intensity", probe);
-        const std::pair key(at.view.radius, probe);
-        auto known = passes.find(key);
-        if (known == passes.end())
-            known = passes.emplace(key, at.probe->passesFor(settings)).first;
-        return at.probe->visibility(settings, known->second);
+        return visibility(at, settings);
     };
     Image image = render();
     if (probe == 1 && settings.has("intensity") && clampsAtBlack(image, at.probe->shown())) {
@@ -394,11 +399,10 @@ Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, d
 FittedRemap Matching::fitAt(const TechniqueSetting& setting, const Freedom& freedom,
                             double multiplier, double& probe) {
     Comparison comparison;
-    PassesOf passes;
     for (const Case& at : cases_) {
         if (!at.train)
             continue;
-        const Image image = rawVisibility(setting, at, multiplier, probe, passes);
+        const Image image = rawVisibility(setting, at, multiplier, probe);
         comparison.add(image, probe, at.targets.at(targetOf(study_)), at.probe->shown());
         effort_.spend(renderCost(study_.training));
     }
@@ -450,7 +454,7 @@ std::vector<MatchRow> Matching::measure(const TechniqueSetting& setting, const V
                                         const std::string& stage) {
     std::vector<MatchRow> rows;
     for (const Case& at : cases_) {
-        const Image image = at.probe->visibility(settingsAt(setting, at.view, values));
+        const Image image = visibility(at, settingsAt(setting, at.view, values));
         for (const auto& [reference, target] : at.targets)
             rows.push_back({setting.name, at.view.name, at.view.radius, at.train, reference, stage,
                             imageError(image, target, at.probe->shown())});
@@ -465,6 +469,7 @@ MatchedTechnique Matching::matched(const TechniqueSetting& setting) {
         technique.note = "traces rays itself: it is the reference, and not matched";
         return technique;
     }
+    passes_.clear();
     technique.fitted = fit(setting, technique.note);
     for (const bool raw : {true, false}) {
         const auto rows =
