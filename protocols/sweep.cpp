@@ -47,8 +47,8 @@ bool has(const std::vector<View>& views, const std::string& name) {
                        [&](const View& view) { return view.name == name; });
 }
 
-Growth parseGrowth(TomlTable table, const MatchStudy& study) {
-    Growth growth;
+GrowthPlan parseGrowth(TomlTable table, const MatchStudy& study) {
+    GrowthPlan growth;
     growth.view = table.text("view");
     if (!has(study.train, growth.view) && !has(study.test, growth.view))
         throw Error(

@@ -9,7 +9,7 @@ namespace obscura {
 // this kind have all that a match study has but [image], and lists among the techniques' settings.
 
 // How cost grows, one thing at a time.
-struct Growth {
+struct GrowthPlan {
     std::string view;                         // name of one of the study's
     std::vector<double> radii;                // metres
     std::vector<ImageSize> sizes;             //
@@ -25,7 +25,7 @@ struct SweepStudy {
     std::optional<Level> light; // of lit images; without it there are none
     int frames = 200;           // timed of each configuration, or as many as fit in
     double seconds = 5;
-    std::optional<Growth> growth;
+    std::optional<GrowthPlan> growth;
 };
 
 SweepStudy parseSweepStudy(const std::string& text, const std::string& file);

@@ -10,12 +10,17 @@ Composite::Composite(const View& view, const Level& level, int width, int height
     : program_("composite", shaderText("screen.vert"), compositeShader()),
       sum_(width, height, std::vector<gl::Format>(linear ? 2 : 1, gl::Format::rgba32f), false,
            "sum of frames") {
-    for (int i = 0; i < sum_.count(); ++i)
-        sum_.clear(i, {0, 0, 0, 0});
+    restart();
     program_.set("exposure", static_cast<float>(std::exp2(view.exposure)));
     program_.set("white", level.curve == Curve::clamp ? 0.0f : static_cast<float>(level.white));
     program_.set("hasDirect", level.sun ? 1 : 0);
     program_.set("occludeDirect", level.occludeDirect ? 1 : 0);
+}
+
+void Composite::restart() {
+    for (int i = 0; i < sum_.count(); ++i)
+        sum_.clear(i, {0, 0, 0, 0});
+    frames_ = 0;
 }
 
 void Composite::draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight,

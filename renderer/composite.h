@@ -17,6 +17,8 @@ class Composite {
     void draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight = false,
               int guard = 0);
 
+    void restart(); // without frames
+
     // Red, green, blue (display-linear, 0 ... 1) and visibility; rows from the bottom.
     std::vector<float> mean() const { return mean(0); }
     // Scene-linear red, green, blue, times 2^exposure; the fourth is 1.

@@ -90,6 +90,27 @@ float linearFromSrgb(float code) {
     return code <= 0.04045f ? code / 12.92f : std::pow((code + 0.055f) / 1.055f, 2.4f);
 }
 
+Image8 displayed(Image linear) {
+    std::transform(linear.pixels.begin(), linear.pixels.end(), linear.pixels.begin(),
+                   srgbFromLinear);
+    return quantised(linear);
+}
+
+Image flipped(const std::vector<float>& values, int width, int height, int have, int first,
+              int keep) {
+    Image image{width, height, keep, {}};
+    image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+                        static_cast<std::size_t>(keep));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t from = static_cast<std::size_t>((height - 1 - y) * width + x) *
+                                     static_cast<std::size_t>(have);
+            for (int c = 0; c < keep; ++c)
+                image.at(x, y, c) = values[from + static_cast<std::size_t>(first + c)];
+        }
+    return image;
+}
+
 Image8 quantised(const Image& image) {
     Image8 result{image.width, image.height, image.channels, {}};
     for (const float value : image.pixels)

@@ -39,6 +39,13 @@ float linearFromSrgb(float code);
 // Values in [0, 1] as code values 0 ... 255, rounded, with no transfer function.
 Image8 quantised(const Image& image);
 
+// The same of linear values, by sRGB's transfer function: as a display is to show them.
+Image8 displayed(Image linear);
+
+// From rows that lie bottom first, as OpenGL has them: `keep` of `have` channels from `first` on.
+Image flipped(const std::vector<float>& values, int width, int height, int have, int first,
+              int keep);
+
 // Any file OpenImageIO reads, as stored: 8-bit files to their code values (a deeper file is
 // rounded), float files to their values. `channels` 0 keeps the file's; otherwise missing colour
 // channels repeat grey, missing alpha is opaque. An Error names the path and the reader's reason.

@@ -42,28 +42,6 @@ glm::vec2 jitterOf(int frame, int count) {
     return {coordinate(0.7548776662466927), coordinate(0.5698402909980532)};
 }
 
-// The last image row first, as OpenGL has it, to top row first; keeps `keep` of `have` channels.
-Image flipped(const std::vector<float>& values, int width, int height, int have, int first,
-              int keep) {
-    Image image{width, height, keep, {}};
-    image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
-                        static_cast<std::size_t>(keep));
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const std::size_t from = static_cast<std::size_t>((height - 1 - y) * width + x) *
-                                     static_cast<std::size_t>(have);
-            for (int c = 0; c < keep; ++c)
-                image.at(x, y, c) = values[from + static_cast<std::size_t>(first + c)];
-        }
-    return image;
-}
-
-Image8 displayed(Image linear) {
-    std::transform(linear.pixels.begin(), linear.pixels.end(), linear.pixels.begin(),
-                   srgbFromLinear);
-    return quantised(linear);
-}
-
 void hashTargets(Sha256& hash, const gl::Target& target, int count) {
     for (int i = 0; i < count; ++i)
         hash.add(

@@ -2,12 +2,12 @@
 
 #include "protocols/files.h"
 #include "protocols/version.h"
-#include "renderer/depth_reference.h"
 #include "renderer/probe.h"
 #include "renderer/reference_cache.h"
 #include "stimuli/fit.h"
 #include "stimuli/match_files.h"
 #include "stimuli/match_sheet.h"
+#include "stimuli/truths.h"
 
 #include <fmt/format.h>
 
@@ -23,8 +23,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// The names under which results stand in tables.
-std::string nameOf(Truth truth) { return truthNames()[static_cast<std::size_t>(truth)]; }
+// The name under which results stand in tables.
 std::string targetOf(const MatchStudy& study) {
     return study.partner.empty() ? nameOf(study.truth) : study.partner;
 }
@@ -44,7 +43,6 @@ std::vector<Truth> truthsOf(const MatchStudy& study, bool train) {
 // Seconds on two cores of software rendering, roughly: shares of the progress line.
 double pixelsOf(const ImageSize& size) { return 1.0 * size.width * size.height; }
 double renderCost(const ImageSize& size) { return 0.2 + pixelsOf(size) * 0.7e-6; }
-double truthCost(const ImageSize& size, int rays) { return pixelsOf(size) * rays / 3e6; }
 
 // What is planned for a part of the work is its share of the line, whether all is needed or not.
 class Effort {
@@ -79,32 +77,6 @@ struct Case {
     const Probe* probe = nullptr;
     std::map<std::string, Image> targets;
 };
-
-// A scene's triangles to trace, made when a truth is not in the cache.
-class LazyTracer {
-  public:
-    explicit LazyTracer(const Scene& scene) : scene_(scene) {}
-    const RayTracer& get() {
-        if (!tracer_)
-            tracer_.emplace(scene_);
-        return *tracer_;
-    }
-
-  private:
-    const Scene& scene_;
-    std::optional<RayTracer> tracer_;
-};
-
-Integral integralOf(Truth truth) {
-    switch (truth) {
-    case Truth::uniform:
-        return Integral::uniform;
-    case Truth::falloff:
-        return Integral::falloff;
-    default:
-        return Integral::cosine;
-    }
-}
 
 double significant(double value) { // as the fragment gives it
     return std::stod(fmt::format("{:.4g}", value));
@@ -184,7 +156,6 @@ class Matching {
     void look();
     void lookAt(const std::string& sceneSha256);
     const Probe& probe(const Subject& subject, const View& view, const ImageSize& size);
-    Image truth(Truth truth, LazyTracer& tracer, const Case& at, const TraceProgress& progress);
     void addTruths(LazyTracer& tracer, Case& at);
     void addPartner();
     std::string keyOf(const TechniqueSetting& setting);
@@ -261,38 +232,13 @@ const Probe& Matching::probe(const Subject& subject, const View& view, const Ima
     return *known;
 }
 
-// The one place that knows how each truth is made.
-Image Matching::truth(Truth truth, LazyTracer& tracer, const Case& at,
-                      const TraceProgress& progress) {
-    ReferenceInputs inputs;
-    inputs.sceneSha256 = hashes_.of(at.view);
-    inputs.camera = at.view.camera;
-    inputs.width = size(at).width;
-    inputs.height = size(at).height;
-    inputs.normals = study_.normals;
-    inputs.settings.integral = integralOf(truth);
-    inputs.settings.radius = at.view.radius;
-    inputs.settings.rays = study_.rays;
-    inputs.settings.seed = study_.seed;
-    if (truth == Truth::depth)
-        return cachedReference(cache_, referenceKey(inputs) + "-depth",
-                               [&] {
-                                   return depthReference(at.probe->surfaces(), inputs.settings, {},
-                                                         progress);
-                               })
-            .visibility;
-    return cachedReference(
-               cache_, referenceKey(inputs),
-               [&] { return tracer.get().trace(at.probe->surfaces(), inputs.settings, progress); })
-        .visibility;
-}
-
 void Matching::addTruths(LazyTracer& tracer, Case& at) {
     for (const Truth kind : truthsOf(study_, at.train)) {
         effort_.begin(truthCost(size(at), study_.rays),
                       fmt::format("{} reference of {}", nameOf(kind), at.view.name));
-        at.targets[nameOf(kind)] =
-            truth(kind, tracer, at, [&](double share) { effort_.reach(share); });
+        at.targets[nameOf(kind)] = truthOf(
+            kind, {at.view, size(at), study_.rays, study_.normals, study_.seed}, *at.probe, tracer,
+            hashes_.of(at.view), cache_, [&](double share) { effort_.reach(share); });
         effort_.end();
     }
 }

@@ -12,7 +12,9 @@ namespace {
 constexpr int margin = 24, gap = 8, caption = 28, header = 84, widest = 480, columns = 4;
 constexpr float fullColour = 0.25f;
 
-Image8 grey(const Image& visibility) {
+} // namespace
+
+Image8 greyPicture(const Image& visibility) {
     const Image8 code = quantised(visibility);
     Image8 result{code.width, code.height, 3, {}};
     for (const std::uint8_t value : code.pixels)
@@ -20,7 +22,7 @@ Image8 grey(const Image& visibility) {
     return result;
 }
 
-Image8 difference(const Image& image, const Image& reference) {
+Image8 differencePicture(const Image& image, const Image& reference) {
     Image8 result{image.width, image.height, 3, {}};
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const float d =
@@ -32,8 +34,6 @@ Image8 difference(const Image& image, const Image& reference) {
     }
     return result;
 }
-
-} // namespace
 
 Image8 matchSheet(const std::string& title, const Image& reference,
                   const std::vector<MatchPictures>& techniques) {
@@ -52,8 +52,9 @@ Image8 matchSheet(const std::string& title, const Image& reference,
     for (const MatchPictures& technique : techniques) {
         page.text(margin, top + 4, escaped(technique.title), 14);
         int at = 0;
-        for (const Image8& image : {grey(reference), grey(technique.raw), grey(technique.matched),
-                                    difference(technique.matched, reference)}) {
+        for (const Image8& image :
+             {greyPicture(reference), greyPicture(technique.raw), greyPicture(technique.matched),
+              differencePicture(technique.matched, reference)}) {
             page.image(column(at), top + caption, shrunk(image, width, height));
             page.frame(column(at++), top + caption, width, height);
         }

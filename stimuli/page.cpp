@@ -102,6 +102,16 @@ Image8 shrunk(const Image8& from, int width, int height) {
     return to;
 }
 
+Image8 sideBySide(const Image8& left, const Image8& right) {
+    Image8 both{left.width + right.width, left.height, left.channels, {}};
+    for (int y = 0; y < left.height; ++y)
+        for (const Image8* image : {&left, &right}) {
+            const auto row = image->pixels.begin() + y * image->width * image->channels;
+            both.pixels.insert(both.pixels.end(), row, row + image->width * image->channels);
+        }
+    return both;
+}
+
 std::string escaped(const std::string& text) {
     const std::unique_ptr<char, decltype(&g_free)> result(g_markup_escape_text(text.c_str(), -1),
                                                           &g_free);

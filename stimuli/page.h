@@ -29,6 +29,8 @@ class Page {
 // Box-filtered on code values: a thumbnail to recognise, not to measure.
 Image8 shrunk(const Image8& from, int width, int height);
 
+Image8 sideBySide(const Image8& left, const Image8& right); // of one height
+
 // Text that stands for itself in markup.
 std::string escaped(const std::string& text);
 

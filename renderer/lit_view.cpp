@@ -1,0 +1,27 @@
+#include "renderer/lit_view.h"
+
+#include "renderer/traced.h"
+
+namespace obscura {
+
+LitView::LitView(const Subject& subject, const View& view, const Level& level,
+                 const std::filesystem::path& protocolFolder, int width, int height,
+                 std::uint64_t seed)
+    : width_(width), height_(height),
+      lighting_(level, subject.scene(), protocolFolder / level.environment),
+      light_(width, height, lighting_.hasDirect()), composite_(view, level, width, height, false) {
+    const Frame frame = makeFrame(view.camera, width, height, subject.scene().bounds(), seed);
+    const gl::UniformBuffer block = frameBuffer(frame);
+    bindFrame(block);
+    const GBuffer gbuffer(width, height, {true, lighting_.readsNormals(), {}});
+    subject.pass().draw(subject.scene(), frame, gbuffer);
+    lighting_.draw(gbuffer, light_);
+}
+
+Image8 LitView::image(const Image& visibility) {
+    composite_.restart();
+    composite_.draw(light_, visibilityTexture(visibility));
+    return displayed(flipped(composite_.mean(), width_, height_, 4, 0, 3));
+}
+
+} // namespace obscura
