@@ -1,0 +1,108 @@
+#include "bench/budget.h"
+
+#include "protocols/error.h"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace obscura {
+
+namespace {
+
+struct Limit {
+    const char* name;
+    const char* spelt;
+    std::optional<double> Budget::*most;
+    double ViewResult::*value;
+};
+constexpr Limit errorLimits[] = {
+    {"rmse", "RMSE", &Budget::rmse, &ViewResult::rmse},
+    {"flip", "FLIP", &Budget::flip, &ViewResult::flip},
+    {"litFlip", "FLIP of the lit image", &Budget::litFlip, &ViewResult::litFlip},
+};
+
+double mean(std::span<const double> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+} // namespace
+
+Budget budgetOf(std::span<const std::string> limits) {
+    Budget budget;
+    const std::pair<const char*, std::optional<double> Budget::*> all[] = {
+        {"rmse", &Budget::rmse},
+        {"flip", &Budget::flip},
+        {"litFlip", &Budget::litFlip},
+        {"flicker", &Budget::flicker},
+        {"ms", &Budget::milliseconds}};
+    std::vector<std::string> names;
+    for (const auto& [name, member] : all)
+        names.push_back(name);
+    for (const std::string& limit : limits) {
+        const std::size_t equals = std::min(limit.find('='), limit.size());
+        const std::string name = limit.substr(0, equals);
+        const std::string number = equals < limit.size() ? limit.substr(equals + 1) : "";
+        char* end = nullptr;
+        const double value = std::strtod(number.c_str(), &end);
+        const auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end() || number.empty() || *end || !(value >= 0))
+            throw Error(fmt::format("expected a limit like rmse=0.1, with one of {} before \"=\" "
+                                    "and a number of at least 0 after it, found \"{}\"",
+                                    fmt::join(names, ", "), limit));
+        budget.*(all[found - names.begin()].second) = value;
+    }
+    return budget;
+}
+
+double upperBound(std::span<const double> values) {
+    const auto n = static_cast<double>(values.size());
+    if (n < 2)
+        return std::numeric_limits<double>::infinity();
+    const double middle = mean(values);
+    double squares = 0;
+    for (const double value : values)
+        squares += (value - middle) * (value - middle);
+    const double quantile =
+        boost::math::quantile(boost::math::students_t_distribution<>(n - 1), 0.95);
+    return middle + quantile * std::sqrt(squares / (n - 1) / n);
+}
+
+std::string excess(const Budget& budget, std::span<const ViewResult> views) {
+    std::vector<std::pair<double, std::string>> found; // ratio to the limit, words
+    for (const Limit& limit : errorLimits) {
+        const std::optional<double> most = budget.*limit.most;
+        if (!most)
+            continue;
+        std::vector<double> values;
+        for (const ViewResult& view : views)
+            values.push_back(view.*limit.value);
+        const double bound = upperBound(values);
+        if (!(bound <= *most))
+            found.emplace_back(bound / *most,
+                               fmt::format("{} {:.3f} (at most {:.3f} with 95 % confidence), "
+                                           "budget {:.3f}",
+                                           limit.spelt, mean(values), bound, *most));
+    }
+    if (budget.milliseconds) {
+        double dearest = 0;
+        for (const ViewResult& view : views)
+            dearest = std::max(dearest, view.milliseconds);
+        if (dearest > *budget.milliseconds)
+            found.emplace_back(
+                dearest / *budget.milliseconds,
+                fmt::format("{:.3g} ms, budget {:.3g}", dearest, *budget.milliseconds));
+    }
+    std::sort(found.rbegin(), found.rend());
+    std::string text;
+    for (const auto& [ratio, words] : found)
+        text += (text.empty() ? "" : "; ") + words;
+    return text;
+}
+
+} // namespace obscura

@@ -1,0 +1,276 @@
+#include "bench/choose.h"
+
+#include "stimuli/match.h"
+#include "stimuli/match_files.h"
+
+#include "bench/measured_view.h"
+#include "bench/timing.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <set>
+
+namespace obscura {
+
+namespace {
+
+constexpr ImageSize glanceSize{160, 90};
+constexpr int glanceRays = 64, glanceFrames = 3;
+// A glance sees one small view: what is over the budget by less than this may still meet it.
+constexpr double glanceFactor = 1.5, glanceMargin = 0.02;
+
+// Each scene of a study, once loaded, with its views measured so far.
+class Stages {
+  public:
+    Stages(const SweepStudy& study, const Folders& folders, const SweepPlan& plan,
+           const std::function<void(const std::string&)>& tell)
+        : study_(study), folders_(folders), plan_(plan), tell_(tell), hashes_(folders) {}
+
+    MeasuredView& view(std::size_t i) {
+        const View& view = study_.match.test[i];
+        std::unique_ptr<MeasuredView>& known = views_[i];
+        if (!known) {
+            Stage& stage = stageOf(view);
+            const auto start = std::chrono::steady_clock::now();
+            known = std::make_unique<MeasuredView>(
+                stage.subject, stage.tracer, study_, view, study_.sizes.front(), false, folders_,
+                hashes_.of(view), plan_.cache,
+                [&](double, const std::string& note) { tell_(note); });
+            references_ +=
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        }
+        return *known;
+    }
+    std::size_t count() const { return study_.match.test.size(); }
+    double secondsForReferences() const { return references_; }
+
+  private:
+    struct Stage {
+        explicit Stage(Scene loaded) : scene(std::move(loaded)), tracer(scene), subject(scene) {}
+        Scene scene;
+        LazyTracer tracer;
+        Subject subject;
+    };
+    Stage& stageOf(const View& view) {
+        std::unique_ptr<Stage>& known = stages_[sceneOf(view)];
+        if (!known)
+            known = std::make_unique<Stage>(loadSceneOf(view, folders_));
+        return *known;
+    }
+
+    const SweepStudy& study_;
+    const Folders& folders_;
+    const SweepPlan& plan_;
+    const std::function<void(const std::string&)>& tell_;
+    SceneHashes hashes_;
+    std::map<std::string, std::unique_ptr<Stage>> stages_;
+    std::map<std::size_t, std::unique_ptr<MeasuredView>> views_;
+    double references_ = 0;
+};
+
+class Choosing {
+  public:
+    Choosing(const SweepStudy& study, const Budget& budget, const Folders& folders,
+             const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress)
+        : study_(study), budget_(budget), folders_(folders), plan_(plan), driver_(driver),
+          progress_(progress), tell_([this](const std::string& note) { tell(note); }),
+          stages_(study, folders, plan, tell_), timing_(gl::honestTiming().timing) {}
+
+    Choice run();
+
+  private:
+    void timeAll();
+    void glance();
+    void measure(Candidate& candidate);
+    bool confirm(Candidate& candidate);
+    std::map<std::string, MatchedTechnique> fits(const MatchStudy& study,
+                                                 const std::string& folder);
+    std::vector<double> milliseconds(std::size_t view, const std::vector<Settings>& settings,
+                                     int frames, double seconds, bool high);
+    void tell(const std::string& note) {
+        const auto all = static_cast<double>(3 * study_.match.techniques.size());
+        progress_(std::min(done_, all), all, note);
+    }
+
+    const SweepStudy& study_;
+    const Budget& budget_;
+    const Folders& folders_;
+    const SweepPlan& plan_;
+    const gl::Driver& driver_;
+    const SweepProgress& progress_;
+    const std::function<void(const std::string&)> tell_;
+    Stages stages_;
+    gl::Timing timing_;
+    Choice choice_;
+    double done_ = 0; // in candidates, each rung counting alike
+};
+
+std::vector<double> Choosing::milliseconds(std::size_t view, const std::vector<Settings>& settings,
+                                           int frames, double seconds, bool high) {
+    TimingPlan plan;
+    plan.frames = frames;
+    plan.seconds = seconds;
+    plan.seed = study_.match.seed;
+    plan.timing = timing_;
+    const double before = done_;
+    MeasuredView& seen = stages_.view(view);
+    const auto times =
+        timeTechniques(seen.probe(), settings, seen.view().radius, plan, [&](double share) {
+            if (!high)
+                done_ = before + share * static_cast<double>(settings.size());
+            tell("timing");
+        });
+    std::vector<double> result;
+    for (const TechniqueTime& time : times)
+        result.push_back(high ? time.total.high : time.total.median);
+    return result;
+}
+
+void Choosing::timeAll() {
+    const double radius = study_.match.test.front().radius;
+    std::vector<Settings> settings;
+    for (const TechniqueSetting& technique : study_.match.techniques) {
+        Candidate candidate;
+        candidate.configuration.setting = technique;
+        candidate.rmse = std::numeric_limits<double>::quiet_NaN();
+        choice_.candidates.push_back(std::move(candidate));
+        settings.push_back(settingsAt(choice_.candidates.back().configuration, radius, false));
+    }
+    const auto times = milliseconds(0, settings, glanceFrames, 0, false);
+    for (std::size_t i = 0; i < times.size(); ++i)
+        choice_.candidates[i].milliseconds = times[i];
+    std::stable_sort(
+        choice_.candidates.begin(), choice_.candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.milliseconds < b.milliseconds; });
+}
+
+std::map<std::string, MatchedTechnique> Choosing::fits(const MatchStudy& study,
+                                                       const std::string& folder) {
+    const double before = done_;
+    const auto candidates = static_cast<double>(study.techniques.size());
+    const MatchResult result =
+        obscura::match(study, folders_, plan_.folder / folder, plan_.cache, driver_,
+                       [&](double done, double total, const std::string& note) {
+                           done_ = before + (total > 0 ? done / total * candidates : 0);
+                           tell("matching " + note);
+                       });
+    done_ = before + candidates;
+    std::map<std::string, MatchedTechnique> byName;
+    for (const MatchedTechnique& technique : result.techniques)
+        byName[technique.setting.name] = technique;
+    return byName;
+}
+
+void Choosing::glance() {
+    MatchStudy study = study_.match;
+    study.train.resize(1);
+    study.test.resize(1);
+    study.training = study.image = glanceSize;
+    study.rays = std::min(study.rays, glanceRays);
+    study.scores.clear();
+    const auto fitted = fits(study, "glance");
+    for (Candidate& candidate : choice_.candidates) {
+        const auto summary = summaryOf(fitted.at(candidate.configuration.setting.name).rows,
+                                       nameOf(study.truth), "matched");
+        candidate.rung = Rung::glance;
+        candidate.rmse = summary.rmse;
+        if (budget_.rmse && candidate.rmse > *budget_.rmse * glanceFactor + glanceMargin)
+            candidate.verdict = fmt::format("RMSE {:.3f} at a glance, budget {:.3f}",
+                                            candidate.rmse, *budget_.rmse);
+        else if (budget_.milliseconds &&
+                 candidate.milliseconds > *budget_.milliseconds * glanceFactor)
+            candidate.verdict = fmt::format("{:.3g} ms at a glance, budget {:.3g}",
+                                            candidate.milliseconds, *budget_.milliseconds);
+    }
+}
+
+// Fitted on all training views, measured on all others at full size.
+void Choosing::measure(Candidate& candidate) {
+    MatchStudy study = study_.match;
+    study.scores.clear();
+    std::erase_if(study.techniques, [&](const TechniqueSetting& each) {
+        return each.name != candidate.configuration.setting.name;
+    });
+    candidate.configuration.fitted = fits(study, "match").begin()->second.fitted;
+    candidate.rung = Rung::held_out;
+    double squares = 0;
+    for (std::size_t i = 0; i < stages_.count(); ++i) {
+        MeasuredView& seen = stages_.view(i);
+        const Image image =
+            seen.probe().visibility(settingsAt(candidate.configuration, seen.view().radius, true));
+        const ViewErrors errors = seen.errorsOf(image);
+        candidate.views.push_back(
+            {errors.full.rmse, errors.full.flip, errors.lit.flip, candidate.milliseconds});
+        squares += errors.full.rmse * errors.full.rmse;
+        tell("measuring " + candidate.configuration.setting.name);
+    }
+    candidate.rmse = std::sqrt(squares / static_cast<double>(stages_.count()));
+}
+
+// Timed as long as a sweep would, on every view.
+bool Choosing::confirm(Candidate& candidate) {
+    candidate.milliseconds = 0;
+    for (std::size_t i = 0; i < stages_.count(); ++i) {
+        const std::vector<Settings> settings{
+            settingsAt(candidate.configuration, stages_.view(i).view().radius, true)};
+        candidate.views[i].milliseconds =
+            milliseconds(i, settings, study_.frames, study_.seconds, true).front();
+        candidate.milliseconds = std::max(candidate.milliseconds, candidate.views[i].milliseconds);
+    }
+    candidate.verdict = excess(budget_, candidate.views);
+    return candidate.verdict.empty();
+}
+
+Choice Choosing::run() {
+    const auto start = std::chrono::steady_clock::now();
+    timeAll();
+    glance();
+    for (std::size_t i = 0; i < choice_.candidates.size() && !choice_.chosen; ++i) {
+        Candidate& candidate = choice_.candidates[i];
+        if (!candidate.verdict.empty())
+            continue;
+        measure(candidate);
+        candidate.verdict = excess(budget_, candidate.views);
+        if (candidate.verdict.empty() && confirm(candidate)) {
+            candidate.rung = Rung::chosen;
+            choice_.chosen = i;
+        }
+    }
+    choice_.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
+        stages_.secondsForReferences();
+    return std::move(choice_);
+}
+
+} // namespace
+
+Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
+              const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress) {
+    return Choosing(study, budget, folders, plan, driver, progress).run();
+}
+
+std::string chosenFrom(const Sweep& sweep, const Budget& budget) {
+    struct Measured {
+        double milliseconds = 0;
+        std::vector<ViewResult> views;
+    };
+    std::map<std::string, Measured> all;
+    for (const SweepRow& row : sweep.rows) {
+        Measured& measured = all[row.configuration];
+        measured.milliseconds += row.total.median;
+        measured.views.push_back(
+            {row.matched.rmse, row.matched.flip, row.litMatched.flip, row.total.high});
+    }
+    std::string best;
+    for (const auto& [name, measured] : all)
+        if (excess(budget, measured.views).empty() &&
+            (best.empty() || measured.milliseconds < all[best].milliseconds))
+            best = name;
+    return best;
+}
+
+} // namespace obscura

@@ -1,0 +1,45 @@
+#pragma once
+
+#include "bench/budget.h"
+#include "bench/sweep.h"
+
+#include <map>
+
+namespace obscura {
+
+// The cheapest configuration that is good enough: `obscura-bench choose`.
+
+// How far a candidate came. Each rung costs more and leaves fewer.
+enum class Rung {
+    time,     // a few frames of each on one view: they are tried in order of cost
+    glance,   // fitted and tested on one small view each: those far over the budget fall out
+    held_out, // fitted on all training views, measured at full size on held-out ones
+    chosen    // and timed at length, on all of them
+};
+
+struct Candidate {
+    Configuration configuration;
+    Rung rung = Rung::time;
+    double milliseconds = 0;       // median; of the last rung
+    double rmse = 0;               // of matched visibility, of the last rung; NaN before `glance`
+    std::vector<ViewResult> views; // from `held_out` on
+    std::string verdict;           // why it fell out; "" for the chosen one and those not needed
+};
+
+struct Choice {
+    std::vector<Candidate> candidates; // by rising cost
+    std::optional<std::size_t> chosen; // none: no candidate meets the budget
+    double seconds = 0;                // that the search took, references left out
+};
+
+// By a race in rungs: time all a little, look at all a little, then measure in order of cost until
+// one meets every limit with 95 % confidence on views that it was not fitted on (so the study must
+// have at least two test views of each radius). Of equal means the fact sheet's rule (§F.8).
+Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
+              const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress);
+
+// The same question answered from a sweep that has measured everything; index of a row's
+// configuration by name, "" when none meets the budget. What choose() is held to.
+std::string chosenFrom(const Sweep& sweep, const Budget& budget);
+
+} // namespace obscura

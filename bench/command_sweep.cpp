@@ -1,0 +1,240 @@
+#include "bench/choose.h"
+#include "bench/choose_report.h"
+#include "bench/commands.h"
+#include "bench/figures.h"
+#include "bench/sweep.h"
+#include "bench/sweep_files.h"
+#include "bench/sweep_page.h"
+#include "bench/sweep_summary.h"
+#include "bench/viewpoints.h"
+#include "protocols/files.h"
+#include "protocols/progress.h"
+#include "renderer/builtin.h"
+#include "renderer/reference_cache.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyOptions {
+    fs::path study, out, scenes;
+    std::string device, part;
+    std::vector<std::string> sizes;
+    double seconds = -1, hours = 1;
+    bool quick = false;
+};
+
+// "W/H" or "1x2": two whole numbers, a separator between.
+std::optional<std::pair<int, int>> pairOf(const std::string& text, char separator) {
+    int first = 0, second = 0;
+    char found = 0, rest = 0;
+    if (std::sscanf(text.c_str(), "%d%c%d%c", &first, &found, &second, &rest) != 3 ||
+        found != separator)
+        return std::nullopt;
+    return std::pair{first, second};
+}
+
+std::vector<ImageSize> sizesOf(const std::vector<std::string>& texts) {
+    std::vector<ImageSize> sizes;
+    for (const std::string& text : texts) {
+        const auto pair = pairOf(text, 'x');
+        if (!pair || std::min(pair->first, pair->second) < 16 ||
+            std::max(pair->first, pair->second) > 8192)
+            throw Error(fmt::format("expected --size WIDTHxHEIGHT, each 16 ... 8192, found \"{}\"",
+                                    text));
+        sizes.push_back({pair->first, pair->second});
+    }
+    return sizes;
+}
+
+void adjust(SweepStudy& study, const StudyOptions& options) {
+    if (options.quick)
+        study = quick(std::move(study));
+    if (!options.sizes.empty())
+        study.sizes = sizesOf(options.sizes);
+    if (options.seconds >= 0)
+        study.seconds = options.seconds;
+}
+
+SweepPlan planOf(const StudyOptions& options, const fs::path& folder) {
+    SweepPlan plan{folder, defaultCache()};
+    plan.hours = options.hours;
+    if (options.part.empty())
+        return plan;
+    const auto part = pairOf(options.part, '/');
+    if (!part || part->first < 1 || part->first > part->second)
+        throw Error(fmt::format("expected --part I/N with I from 1 to N, found \"{}\"",
+                                options.part));
+    plan.part = part->first;
+    plan.parts = part->second;
+    return plan;
+}
+
+// A line that appears with the first report, on which the total is known.
+class Reporting {
+  public:
+    explicit Reporting(std::string label) : label_(std::move(label)) {}
+    SweepProgress progress() {
+        return [this](double done, double total, const std::string& note) {
+            if (!line_ || total != total_)
+                line_.emplace(label_, total_ = total);
+            line_->update(done, note);
+        };
+    }
+    void end() { line_.reset(); }
+
+  private:
+    std::string label_;
+    double total_ = 0;
+    std::optional<Progress> line_;
+};
+
+int runSweep(const StudyOptions& options) {
+    SweepStudy study = readSweepStudy(options.study);
+    adjust(study, options);
+    const fs::path folder =
+        options.out.empty() ? fs::path("sweep-" + study.match.name) : options.out;
+    const gl::Context context(options.device);
+    Reporting reporting("sweeping");
+    const Sweep result = sweep(study, {options.scenes, options.study.parent_path()},
+                               planOf(options, folder), context.driver(), reporting.progress());
+    reporting.end();
+    fmt::print("{} rows of {} configurations; {}\n", result.rows.size(),
+               study.match.techniques.size(), result.machine.method);
+    fmt::print("{}", frontText(result));
+    fmt::print("Page: {}\n", (folder / "sweep.html").string());
+    return 0;
+}
+
+void writePage(const fs::path& folder) {
+    const Sweep sweep = readSweep(folder);
+    writeFile(folder / "sweep.html", sweepPage(sweep, folder));
+    writeFigures(folder / "figures", sweepFigures(sweep));
+    fmt::print("Page: {}\n", (folder / "sweep.html").string());
+}
+
+struct ChooseOptions {
+    StudyOptions study;
+    std::string scene;
+    double radius = 0;
+    int cameras = 8;
+    std::vector<std::string> limits;
+};
+
+// The study's own views, or cameras that see the scene, half of them to fit on.
+SweepStudy studyOf(const ChooseOptions& options, const Folders& folders) {
+    SweepStudy study = readSweepStudy(options.study.study);
+    if (options.scene.empty())
+        return study;
+    if (options.radius <= 0)
+        throw Error("expected --radius METRES with --scene: how far occlusion is to reach there");
+    View view;
+    const auto builtins = builtinSceneNames();
+    const bool builtin =
+        std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
+    (builtin ? view.builtin : view.file) = options.scene;
+    view.radius = options.radius;
+    const std::vector<View> views = viewpoints(view, folders, options.cameras, study.match.seed);
+    study.match.train.clear();
+    study.match.test.clear();
+    for (std::size_t i = 0; i < views.size(); ++i)
+        (i % 2 ? study.match.test : study.match.train).push_back(views[i]);
+    study.match.name = "choose";
+    study.growth.reset();
+    return study;
+}
+
+int runChoose(const ChooseOptions& options) {
+    const Budget budget = budgetOf(options.limits);
+    const Folders folders{options.study.scenes, options.study.study.parent_path()};
+    const gl::Context context(options.study.device);
+    SweepStudy study = studyOf(options, folders);
+    adjust(study, options.study);
+    study.sizes.resize(1);
+    const fs::path folder = options.study.out.empty() ? fs::path("choose-" + study.match.name)
+                                                      : options.study.out;
+    Reporting reporting("choosing");
+    const Choice choice = choose(study, budget, folders, planOf(options.study, folder),
+                                 context.driver(), reporting.progress());
+    reporting.end();
+    writeChoice(folder, study, budget, choice);
+    fmt::print("{}", choiceText(study, budget, choice));
+    fmt::print("In {}: choice.toml for a protocol's include, choice.svg\n", folder.string());
+    return choice.chosen ? 0 : 1;
+}
+
+void addStudyOptions(CLI::App& command, StudyOptions& options) {
+    const char* scenes = std::getenv("OBSCURA_SCENES");
+    options.scenes = scenes ? scenes : ".";
+    command.add_option("--out", options.out, "result folder; default named after the study");
+    command.add_option("--scenes", options.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
+    command.add_option("--device", options.device,
+                       "render with this device of obscura-render --devices");
+    command.add_option("--size", options.sizes,
+                       "WIDTHxHEIGHT instead of the study's sizes; may be repeated");
+    command.add_option("--seconds", options.seconds,
+                       "timed of each configuration and view, or the study's number of frames");
+    command.add_option("--hours", options.hours, "that references may take")->capture_default_str();
+    command.add_flag("--quick", options.quick,
+                     "a first look in minutes: few views, small, hardly timed");
+}
+
+} // namespace
+
+std::vector<Command> sweepCommands(CLI::App& app) {
+    const auto options = std::make_shared<ChooseOptions>();
+    StudyOptions& study = options->study;
+    CLI::App* sweeping = app.add_subcommand(
+        "sweep", "speed and accuracy of a study's techniques in all their settings");
+    sweeping->add_option("study", study.study, "TOML, such as protocols/sweep-builtin.toml")
+        ->required();
+    addStudyOptions(*sweeping, study);
+    sweeping->add_option("--part", study.part, "I/N: only every Nth configuration, from the Ith");
+
+    const auto folders = std::make_shared<std::vector<fs::path>>();
+    CLI::App* merging = app.add_subcommand("merge", "one sweep of its parts");
+    merging->add_option("parts", *folders, "folders of parts")->required();
+    merging->add_option("--out", study.out, "result folder")->required();
+    CLI::App* page = app.add_subcommand("page", "a sweep's page and figures anew from its CSV");
+    page->add_option("folder", study.out, "of the sweep")->required();
+
+    CLI::App* choosing =
+        app.add_subcommand("choose", "the cheapest technique that is good enough for a scene");
+    study.study = fs::path(OBSCURA_PROTOCOLS) / "sweep-builtin.toml";
+    choosing->add_option("study", study.study, "TOML of candidates and views")
+        ->capture_default_str();
+    choosing->add_option("--scene", options->scene,
+                         "glTF file or built-in scene, seen from cameras found for it");
+    choosing->add_option("--radius", options->radius, "of occlusion in --scene, metres");
+    choosing->add_option("--cameras", options->cameras, "for --scene; half fit, half judge")
+        ->check(CLI::Range(4, 64))
+        ->capture_default_str();
+    choosing
+        ->add_option("--limit", options->limits,
+                     "rmse, flip, litFlip, flicker or ms = NUMBER; may be repeated")
+        ->required();
+    addStudyOptions(*choosing, study);
+
+    return {{sweeping, [options] { return runSweep(options->study); }},
+            {merging,
+             [options, folders] {
+                 mergeSweeps(*folders, options->study.out);
+                 writePage(options->study.out);
+                 return 0;
+             }},
+            {page,
+             [options] {
+                 writePage(options->study.out);
+                 return 0;
+             }},
+            {choosing, [options] { return runChoose(*options); }}};
+}
+
+} // namespace obscura

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace obscura {
+
+// What `obscura-bench` can be asked for: a subcommand, and what it does once parsed; the program's
+// exit status.
+struct Command {
+    CLI::App* parsed;
+    std::function<int()> run;
+};
+
+std::vector<Command> viewCommands(CLI::App& app);      // rays, normals, passes: one view
+std::vector<Command> sweepCommands(CLI::App& app);     // sweep, merge, page, choose: a study
+std::vector<Command> stabilityCommands(CLI::App& app); // stability
+
+} // namespace obscura
