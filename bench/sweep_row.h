@@ -31,13 +31,12 @@ struct SweepRow {
     int frames = 0;               // timed
     Milliseconds total;           // all passes of the technique
     std::array<double, 4> work{}; // medians by kind of work, in the order of workNames()
-                                  // (technique.h); parts
-                                  // of total
+                                  // (renderer/technique.h); parts of total
     double gbuffer = 0;           // median of the same run: depth, and the normals that it reads
     double toGbuffer = 0, toStarcraft = 0; // ratios of medians in the same run; the latter to
                                            // `starcraft` with 16 samples, blurred
     double bytes = 0;                      // of GPU memory per pixel that the technique adds
-    double fetches = 0;                    // of textures per pixel, as declared (technique.h)
+    double fetches = 0; // of textures per pixel, as declared (renderer/fetches.h)
 
     // Against rays through the whole scene, and against the same integral over the depth buffer
     // alone: visibility as the technique leaves it, and after matching (fitted on training views).

@@ -84,13 +84,34 @@ std::string declareInputs(const Technique& technique) {
     return text;
 }
 
-std::string mainOf(const Settings& settings, const Pass& pass, int level) {
+// A macro is not expanded inside itself.
+constexpr const char* countingFetches = R"(int fetchCount = 0;
+#define texelFetch(values, pixel, level) (++fetchCount, texelFetch(values, pixel, level))
+#define texture(values, uv) (++fetchCount, texture(values, uv))
+#define textureLod(values, uv, level) (++fetchCount, textureLod(values, uv, level))
+#define textureGather(values, uv) (++fetchCount, textureGather(values, uv))
+)";
+
+// A pixel's share of what its group fetches.
+constexpr const char* groupShare = R"(    if (gl_LocalInvocationIndex == 0u)
+        groupFetches = 0;
+    barrier();
+    atomicAdd(groupFetches, fetchCount);
+    barrier();
+    uvec2 first = gl_WorkGroupID.xy * gl_WorkGroupSize.xy;
+    uvec2 inside = min(gl_WorkGroupSize.xy, uvec2(imageSize(resultImage)) - first);
+    value = vec4(float(groupFetches) / float(inside.x * inside.y));
+)";
+
+std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes writes) {
     std::string call =
         fmt::format("vec4 value = {}{}(pixel{});\n", pass.name, level > 0 ? "Level" : "",
                     pass.layers > 1              ? ", layer"
                     : pass.stage == Stage::splat ? ", sphere"
                                                  : "");
-    if (enabledPasses(settings).back() == &pass) {
+    if (writes == Writes::fetches) {
+        call += computes(pass) ? groupShare : "    value = vec4(float(fetchCount));\n";
+    } else if (enabledPasses(settings).back() == &pass) {
         if (settings.has("intensity"))
             call += "    value.r = pow(max(1.0 - settings.intensity * (1.0 - value.r), 0.0), "
                     "settings.power);\n";
@@ -98,28 +119,21 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level) {
     }
     if (computes(pass)) {
         const bool rows = pass.stage == Stage::rows;
-        return fmt::format("layout(local_size_x = {}, local_size_y = {}) in;\n"
+        return fmt::format("{}layout(local_size_x = {}, local_size_y = {}) in;\n"
                            "layout(binding = 0, {}) uniform writeonly image2D resultImage;\n"
                            "void main() {{\n    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
                            "    {}"
                            "    if (all(lessThan(pixel, imageSize(resultImage))))\n"
                            "        imageStore(resultImage, pixel, value);\n}}\n",
-                           rows ? group : 1, rows ? 1 : group, gl::glslName(pass.format), call);
+                           writes == Writes::fetches ? "shared int groupFetches;\n" : "",
+                           rows ? group : 1, rows ? 1 : group,
+                           gl::glslName(writes == Writes::fetches ? gl::Format::r32f : pass.format),
+                           call);
     }
     return fmt::format("{}{}layout(location = 0) out vec4 result;\nvoid main() {{\n    ivec2 pixel "
                        "= ivec2(gl_FragCoord.xy);\n    {}    result = value;\n}}\n",
                        pass.layers > 1 ? "uniform int layer;\n" : "",
                        pass.stage == Stage::splat ? "flat in vec4 sphere;\n" : "", call);
-}
-
-gl::Program programOf(const Settings& settings, const Pass& pass, int level,
-                      const std::string& label) {
-    const gl::ShaderText text = passShader(settings, pass, level);
-    if (computes(pass))
-        return gl::Program(label, text);
-    return gl::Program(
-        label, pass.stage == Stage::splat ? splatShader(settings) : shaderText("screen.vert"),
-        text);
 }
 
 } // namespace
@@ -132,16 +146,18 @@ std::vector<const Pass*> enabledPasses(const Settings& settings) {
     return result;
 }
 
-gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level) {
+gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level, Writes writes) {
     const Technique& technique = settings.technique();
     gl::ShaderText text;
     declareBlocks(text, technique);
     text.add(declareInputs(technique), "(generated declarations)");
+    if (writes == Writes::fetches)
+        text.add(countingFetches, "(generated counter)");
     if (technique.reads & light)
         text.addFile(shaderFolder(), "environment.glsl");
     text.addFile(shaderFolder(), pass.file.empty() ? fmt::format("ao/{}.glsl", technique.id)
                                                    : std::string(pass.file));
-    text.add(mainOf(settings, pass, level), "(generated main)");
+    text.add(mainOf(settings, pass, level, writes), "(generated main)");
     return text;
 }
 
@@ -150,6 +166,18 @@ gl::ShaderText splatShader(const Settings& settings) {
     declareBlocks(text, settings.technique());
     text.addFile(shaderFolder(), "splat.vert");
     return text;
+}
+
+gl::Program passProgram(const Settings& settings, const Pass& pass, int level, Writes writes) {
+    const gl::ShaderText text = passShader(settings, pass, level, writes);
+    const std::string label =
+        fmt::format("{} {}{}{}", settings.technique().id, pass.name, level > 0 ? " levels" : "",
+                    writes == Writes::fetches ? " fetches" : "");
+    if (computes(pass))
+        return gl::Program(label, text);
+    return gl::Program(
+        label, pass.stage == Stage::splat ? splatShader(settings) : shaderText("screen.vert"),
+        text);
 }
 
 double occlusionBytes(const Settings& settings, int width, int height) {
@@ -216,9 +244,9 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         const std::string label = fmt::format("{} {}", technique.id, pass.name);
         std::optional<gl::Program> levels;
         if (pass.levels > 1)
-            levels = programOf(settings, pass, 1, label + " levels");
+            levels = passProgram(settings, pass, 1);
         const auto scaled = [&](int size) { return (size + pass.scale - 1) / pass.scale; };
-        steps_.push_back({&pass, programOf(settings, pass, 0, label), std::move(levels),
+        steps_.push_back({&pass, passProgram(settings, pass), std::move(levels),
                           gl::SlicedTarget(scaled(width), scaled(height), pass.format,
                                            {pass.levels, pass.layers, pass.scale > 1}, label),
                           own});
@@ -259,32 +287,37 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
         inputs.spheres->bind(spheresBinding);
 }
 
-void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const {
-    const gl::SlicedTarget& target = step.target;
-    step.program.use();
-    if (computes(*step.pass)) {
+void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
+              const gl::ScreenTriangle& triangle, const ProxySpheres* spheres) {
+    program.use();
+    if (computes(pass)) {
         const auto groups = [](int size, bool shared) {
             return shared ? (size + group - 1) / group : size;
         };
         target.bindImage(0);
-        gl::compute(groups(target.width(), step.pass->stage == Stage::rows),
-                    groups(target.height(), step.pass->stage == Stage::columns));
+        gl::compute(groups(target.width(), pass.stage == Stage::rows),
+                    groups(target.height(), pass.stage == Stage::columns));
         return;
     }
     gl::State state;
-    state.add = step.pass->stage == Stage::splat;
+    state.add = pass.stage == Stage::splat;
     state.apply();
     for (int layer = 0; layer < target.slices().layers; ++layer) {
         target.bind(0, layer);
         if (target.slices().layers > 1)
-            step.program.set("layer", layer);
+            program.set("layer", layer);
         if (state.add) {
             target.clear();
-            triangle_.drawQuads(inputs.spheres->count());
+            triangle.drawQuads(spheres->count());
         } else {
-            triangle_.draw();
+            triangle.draw();
         }
     }
+}
+
+void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const {
+    const gl::SlicedTarget& target = step.target;
+    drawPass(*step.pass, step.program, target, triangle_, inputs.spheres);
     if (target.slices().levels == 1)
         return;
     step.levelProgram->use();

@@ -9,11 +9,18 @@
 
 namespace obscura {
 
+// What a pass's shader writes: its value, or how many texture fetches that takes
+// (renderer/fetches.h).
+enum class Writes { value, fetches };
+
 // The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
 // technique's file, and a main that calls the pass's function. `level` 1 is the text for the levels
 // after the first. splat's vertex shader comes from splatShader().
-gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0);
+gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0,
+                          Writes writes = Writes::value);
 gl::ShaderText splatShader(const Settings& settings);
+gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 0,
+                        Writes writes = Writes::value);
 // In order; those that settings switch off left out.
 std::vector<const Pass*> enabledPasses(const Settings& settings);
 
@@ -45,8 +52,13 @@ struct OcclusionInputs {
     const Frame* frame = nullptr; // the one that is bound; for `downscale`
 };
 
-// Called after each pass has been issued, for timing.
+// Called after each pass has been issued, for timing and counting. What the pass read and gave is
+// bound.
 using PassObserver = std::function<void(const Pass&)>;
+
+// Runs a pass's program over level 0 of a target, in all layers. What it reads must be bound.
+void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
+              const gl::ScreenTriangle& triangle, const ProxySpheres* spheres);
 
 // A technique's passes over a G-buffer of one size: depth (and what else it reads) in, visibility
 // out.

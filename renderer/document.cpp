@@ -1,6 +1,7 @@
 #include "renderer/document.h"
 
 #include "protocols/files.h"
+#include "renderer/fetches.h"
 
 #include <fmt/format.h>
 
@@ -49,7 +50,10 @@ std::string rowOf(const Technique& technique) {
     std::string passes;
     for (const Pass& pass : technique.passes)
         passes += (passes.empty() ? " Passes: " : ", ") + passOf(pass);
-    text += passes.empty() ? "\n" : passes + ".\n";
+    if (!passes.empty())
+        text += fmt::format("{}. Texture fetches per pixel: {:.4g}.", passes,
+                            fetchesPerPixel(Settings(technique)));
+    text += "\n";
     if (!technique.parameters.empty())
         text += "\n| parameter | default | unit | range | meaning | source of the default |\n"
                 "|---|---|---|---|---|---|\n";
@@ -61,7 +65,10 @@ std::string rowOf(const Technique& technique) {
         for (const PresetValue& value : preset.values)
             values +=
                 fmt::format("{}`{}` = {}", values.empty() ? "" : ", ", value.name, value.value);
-        text += fmt::format("\nPreset `{}`: {}.\n", preset.name, values);
+        Settings settings(technique);
+        settings.apply(preset.name);
+        text += fmt::format("\nPreset `{}`: {}; texture fetches per pixel: {:.4g}.\n", preset.name,
+                            values, fetchesPerPixel(settings));
     }
     return text;
 }

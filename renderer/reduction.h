@@ -1,7 +1,7 @@
 #pragma once
 
 #include "renderer/gbuffer.h"
-#include "renderer/technique.h"
+#include "renderer/settings.h"
 
 namespace obscura {
 
@@ -30,10 +30,17 @@ class Reduction {
     const gl::Texture& upsample(const gl::Texture& visibility, const GBuffer& gbuffer);
 
     // As observers see them.
-    static constexpr Pass reducePass{
-        .name = "reduce", .format = gl::Format::r32f, .work = Work::prepare};
-    static constexpr Pass upsamplePass{
-        .name = "upsample", .format = gl::Format::r16f, .work = Work::upsample};
+    static constexpr Pass reducePass{.name = "reduce",
+                                     .format = gl::Format::r32f,
+                                     .work = Work::prepare,
+                                     .fetches = [](const Settings& s) {
+                                         return s.technique().reads & Reads::normals ? 2.0 : 1.0;
+                                     }};
+    // Depth of the pixel and its four neighbours; depth and value of four picked pixels.
+    static constexpr Pass upsamplePass{.name = "upsample",
+                                       .format = gl::Format::r16f,
+                                       .work = Work::upsample,
+                                       .fetches = [](const Settings&) { return 5.0 + 4 * 2; }};
     static gl::ShaderText reduceShader();
     static gl::ShaderText upsampleShader();
 

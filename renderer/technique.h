@@ -57,6 +57,11 @@ enum class Work {
 // "prepare", "gather", "filter", "upsample".
 const std::array<std::string, 4>& workNames();
 
+// A number of texture fetches (texelFetch, texture, textureLod and textureGather, each one; not
+// image stores, buffers or shared memory) as the shader's text has them: what a driver merges
+// counts twice.
+using Fetches = double (*)(const Settings&);
+
 // One pass. Later passes read its output from a sampler called nameResult.
 struct Pass {
     std::string_view name;
@@ -72,6 +77,11 @@ struct Pass {
     Stage stage = Stage::screen;
     Work work = Work::gather;
     std::string_view file = {}; // of the shader folder; without it ao/<id of technique>.glsl
+    // The most that one pixel of the target makes: at level 0, and at each next level where the
+    // pass has those. In rows and columns, its share of what a whole group makes away from the
+    // border; as a splat, for one sphere. renderer/fetches.h counts them.
+    Fetches fetches = nullptr;
+    Fetches levelFetches = nullptr;
 };
 
 // What a technique reads besides depth; buffers that nobody reads do not exist.
@@ -125,7 +135,8 @@ std::span<const Technique> techniques();
 const Technique& technique(std::string_view id);
 
 // What static_assert holds the table to: unique ids, a citation, defaults inside ranges, flags and
-// counts whole, passes enabled by parameters that exist, presets that could be set.
+// counts whole, passes enabled by parameters that exist and with their fetches declared, presets
+// that could be set.
 constexpr bool isWhole(const Parameter& parameter) {
     return parameter.unit == Unit::count || parameter.unit == Unit::flag;
 }
@@ -157,7 +168,9 @@ constexpr bool wellFormed(const Pass& pass, std::span<const Parameter> parameter
         found |= parameter.name == pass.enabledBy && isWhole(parameter);
     const bool compute = pass.stage == Stage::rows || pass.stage == Stage::columns;
     const bool single = pass.levels == 1 && pass.layers == 1;
-    return found && pass.scale >= 1 && pass.levels >= 1 && pass.layers >= 1 && (single || !compute);
+    const bool counted = pass.fetches && (pass.levels > 1) == (pass.levelFetches != nullptr);
+    return found && counted && pass.scale >= 1 && pass.levels >= 1 && pass.layers >= 1 &&
+           (single || !compute);
 }
 
 constexpr bool wellFormed(const Technique& technique) {

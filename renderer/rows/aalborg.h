@@ -93,20 +93,24 @@ constexpr Parameter rayMarchParameters[] = {
     power(),
     downscale};
 
+// A march ends where something blocks it.
+constexpr auto rayMarchPasses =
+    gatherAndBlur([](const Settings& s) { return 2.0 + s["samples"] * s["steps"]; }, normalBlur);
+
 constexpr Technique crytek{"crytek",
                            "Crytek 2007",
                            "Mittring 2007; Kajalin, ShaderX7 2009; as in Jakobsen 2010, appendix A",
                            depthOnly,
                            nullptr,
                            crytekParameters,
-                           gatherAndBlur};
+                           crytekPasses};
 constexpr Technique blizzard{"blizzard",
                              "Blizzard 2008",
                              "Filion and McNaughton 2008; as printed in Jakobsen 2010, appendix B",
                              normals,
                              ballPoints,
                              blizzardParameters,
-                             gatherAndBlur};
+                             surfaceGatherAndBlur};
 constexpr Technique blizzardCorrected{
     "blizzard_corrected",
     "Blizzard 2008, corrected curve",
@@ -114,10 +118,10 @@ constexpr Technique blizzardCorrected{
     normals,
     ballPoints,
     blizzardCorrectedParameters,
-    gatherAndBlur};
+    surfaceGatherAndBlur};
 constexpr Technique rayMarch{
-    "ray_march",  "Ray-marching 2010", "Jakobsen 2010, section 4.3.3 and appendix C",
-    normals,      ballPoints,          rayMarchParameters,
-    gatherAndBlur};
+    "ray_march",   "Ray-marching 2010", "Jakobsen 2010, section 4.3.3 and appendix C",
+    normals,       ballPoints,          rayMarchParameters,
+    rayMarchPasses};
 
 } // namespace obscura::rows::aalborg

@@ -1,7 +1,10 @@
 #pragma once
 
 #include "renderer/points.h"
-#include "renderer/technique.h"
+#include "renderer/settings.h"
+
+#include <algorithm>
+#include <cmath>
 
 // Parts that rows of the technique table share (technique.h says what the common parameters do).
 namespace obscura::rows {
@@ -56,9 +59,29 @@ constexpr Parameter blur{"blur",
                          1,
                          "Jakobsen 2010, section 4.3.1.1"};
 
-constexpr Pass gatherAndBlur[] = {
-    {.name = "gather", .format = Format::r16f},
-    {.name = "blurTile", .format = Format::r16f, .enabledBy = "blur"},
-};
+// Fetches (technique.h) that shader files make wherever all of their taps lie in the image.
+
+constexpr Fetches one = [](const Settings&) { return 1.0; };
+// Depth and normal of the pixel, depth of each sample.
+constexpr Fetches surfaceAndSamples = [](const Settings& s) { return 2.0 + s["samples"]; };
+// blur.glsl: depth of the pixel and its four neighbours; depth and value of each in the window.
+constexpr Fetches depthBlur = [](const Settings&) { return 5.0 + 16 * 2; };
+// blur_normal.glsl: the normal of each besides.
+constexpr Fetches normalBlur = [](const Settings&) { return 6.0 + 16 * 3; };
+constexpr Fetches boxBlur = [](const Settings&) { return 1.0 + 16; };
+
+constexpr std::array<Pass, 2> gatherAndBlur(Fetches gather, Fetches blurTile) {
+    return {{{.name = "gather", .format = Format::r16f, .fetches = gather},
+             {.name = "blurTile",
+              .format = Format::r16f,
+              .enabledBy = "blur",
+              .work = Work::filter,
+              .fetches = blurTile}}};
+}
+// crytek.glsl: whole cubes of eight samples, and no normals.
+constexpr auto crytekPasses = gatherAndBlur(
+    [](const Settings& s) { return 1 + 8 * std::max(std::floor(s["samples"] / 8.0), 1.0); },
+    depthBlur);
+constexpr auto surfaceGatherAndBlur = gatherAndBlur(surfaceAndSamples, normalBlur);
 
 } // namespace obscura::rows

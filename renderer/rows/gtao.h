@@ -73,27 +73,48 @@ constexpr Parameter bitmaskParameters[] = {
     power(),
     downscale};
 
-constexpr Pass depthLevelsPass{.name = "depths", .format = Format::r32f, .levels = 5};
-constexpr Pass edgesPass{.name = "edges", .format = Format::rgba8, .enabledBy = "denoise"};
+constexpr Pass depthLevelsPass{.name = "depths",
+                               .format = Format::r32f,
+                               .levels = 5,
+                               .work = Work::prepare,
+                               .fetches = one,
+                               .levelFetches = [](const Settings&) { return 4.0; }};
+// Depth and normal of the pixel; of each tap along both sides of each slice, depth.
+constexpr Fetches slicesTaps = [](const Settings& s) { return 2.0 + 2 * s["slices"] * s["steps"]; };
+constexpr Pass edgesPass{.name = "edges",
+                         .format = Format::rgba8,
+                         .enabledBy = "denoise",
+                         .work = Work::prepare,
+                         .fetches = [](const Settings&) { return 5.0; }};
+// Depth of the pixel, edges of it and its four neighbours, nine values.
 constexpr Pass denoisePass(std::string_view name, int from, Format format) {
-    return {.name = name, .format = format, .enabledBy = "denoise", .from = from};
+    return {.name = name,
+            .format = format,
+            .enabledBy = "denoise",
+            .from = from,
+            .work = Work::filter,
+            .fetches = [](const Settings&) { return 1.0 + 5 + 9; }};
 }
 
-// Green, blue and alpha carry the bent normal up to `visibility`.
+// Green, blue and alpha carry the bent normal up to `visibility`. bentLight reads that, the bent
+// normal, depth, normal and albedo.
 constexpr Pass gtaoPasses[] = {
     depthLevelsPass,
-    {.name = "gather", .format = Format::rgba16f},
+    {.name = "gather", .format = Format::rgba16f, .fetches = slicesTaps},
     edgesPass,
     denoisePass("denoiseOnce", 1, Format::rgba16f),
     denoisePass("denoiseTwice", 2, Format::rgba16f),
     denoisePass("denoiseThrice", 3, Format::rgba16f),
-    {.name = "visibility", .format = Format::r16f},
-    {.name = "bentLight", .format = Format::rgba16f, .enabledBy = "bentNormals"},
+    {.name = "visibility", .format = Format::r16f, .fetches = one},
+    {.name = "bentLight",
+     .format = Format::rgba16f,
+     .enabledBy = "bentNormals",
+     .fetches = [](const Settings&) { return 5.0; }},
 };
 
 constexpr Pass bitmaskPasses[] = {
     depthLevelsPass,
-    {.name = "gather", .format = Format::r16f},
+    {.name = "gather", .format = Format::r16f, .fetches = slicesTaps},
     edgesPass,
     denoisePass("denoiseOnce", 1, Format::r16f),
     denoisePass("denoiseTwice", 2, Format::r16f),

@@ -111,28 +111,51 @@ constexpr Parameter multiScaleParameters[] = {
     power(),
     downscale};
 
+// Depth and normal of the pixel; depth of each tap. Lines of fewer pixels have fewer steps.
+constexpr Fetches horizonTaps = [](const Settings& s) {
+    return 2.0 + s["directions"] * s["steps"];
+};
+// Along one axis: depth of the pixel and its four neighbours; depth and value of each tap.
+constexpr Pass horizonBlurPass(std::string_view name, int scale = 1) {
+    return {.name = name,
+            .format = Format::r16f,
+            .enabledBy = "blur",
+            .scale = scale,
+            .work = Work::filter,
+            .fetches = [](const Settings& s) { return 5.0 + 2 * (2 * s["blurRadius"] + 1); }};
+}
+
 constexpr Pass horizonPasses[] = {
-    {.name = "gather", .format = Format::r16f},
-    {.name = "blurAcross", .format = Format::r16f, .enabledBy = "blur"},
-    {.name = "blurDown", .format = Format::r16f, .enabledBy = "blur"},
+    {.name = "gather", .format = Format::r16f, .fetches = horizonTaps},
+    horizonBlurPass("blurAcross"),
+    horizonBlurPass("blurDown"),
 };
 
 constexpr Pass horizonLayerPasses[] = {
-    {.name = "split", .format = Format::r32f, .scale = 4, .layers = 16},
-    {.name = "shade", .format = Format::r16f, .scale = 4, .layers = 16},
-    {.name = "merge", .format = Format::r16f},
-    {.name = "blurAcross", .format = Format::r16f, .enabledBy = "blur"},
-    {.name = "blurDown", .format = Format::r16f, .enabledBy = "blur"},
+    {.name = "split",
+     .format = Format::r32f,
+     .scale = 4,
+     .layers = 16,
+     .work = Work::prepare,
+     .fetches = one},
+    {.name = "shade", .format = Format::r16f, .scale = 4, .layers = 16, .fetches = horizonTaps},
+    {.name = "merge", .format = Format::r16f, .fetches = one},
+    horizonBlurPass("blurAcross"),
+    horizonBlurPass("blurDown"),
 };
 
+// combine: depth of the pixel and its four neighbours, normal, detail; depth, normal and value of
+// up to four coarse pixels: nine for four pixels on average, so the mean is 13.75.
 constexpr Pass multiScalePasses[] = {
-    {.name = "coarse", .format = Format::r16f, .scale = 2},
-    {.name = "coarseAcross", .format = Format::r16f, .enabledBy = "blur", .scale = 2},
-    {.name = "coarseDown", .format = Format::r16f, .enabledBy = "blur", .scale = 2},
-    {.name = "detail", .format = Format::r16f},
-    {.name = "detailAcross", .format = Format::r16f, .enabledBy = "blur"},
-    {.name = "detailDown", .format = Format::r16f, .enabledBy = "blur"},
-    {.name = "combine", .format = Format::r16f},
+    {.name = "coarse", .format = Format::r16f, .scale = 2, .fetches = horizonTaps},
+    horizonBlurPass("coarseAcross", 2),
+    horizonBlurPass("coarseDown", 2),
+    {.name = "detail", .format = Format::r16f, .fetches = horizonTaps},
+    horizonBlurPass("detailAcross"),
+    horizonBlurPass("detailDown"),
+    {.name = "combine",
+     .format = Format::r16f,
+     .fetches = [](const Settings&) { return 7.0 + 4 * 3; }},
 };
 
 constexpr Technique hbao{

@@ -31,10 +31,29 @@ constexpr Parameter ssdoParameters[] = {
     power(),
 };
 
+// The blur of one result, or the result itself.
+constexpr Fetches maybeBlurred = [](const Settings& s) {
+    return s["blur"] > 0 ? normalBlur(s) : 1;
+};
+
+// Depth and normal of the pixel; of each sample depth, the normal only where it is near enough to
+// block. Those that block are read again to bounce: depth, normal, ambient and direct light and the
+// share of the former that arrives.
 constexpr Pass ssdoPasses[] = {
-    {.name = "gather", .format = Format::rgba16f},
-    {.name = "bounce", .format = Format::rgba16f, .enabledBy = "bounce"},
-    {.name = "shade", .format = Format::rgba16f},
+    {.name = "gather",
+     .format = Format::rgba16f,
+     .fetches = [](const Settings& s) { return 2.0 + 2 * s["samples"]; }},
+    {.name = "bounce",
+     .format = Format::rgba16f,
+     .enabledBy = "bounce",
+     .fetches = [](const Settings& s) { return 2.0 + (2 + 5) * s["samples"]; }},
+    {.name = "shade",
+     .format = Format::rgba16f,
+     .work = Work::filter,
+     .fetches =
+         [](const Settings& s) { // depth, ambient light; bounced light, albedo
+             return 2.0 + maybeBlurred(s) + (s["bounce"] > 0 ? maybeBlurred(s) + 1 : 0);
+         }},
 };
 
 constexpr Technique ssdo{"ssdo",
@@ -76,10 +95,21 @@ constexpr Parameter proxySpheresParameters[] = {
     power(),
     downscale};
 
+// Far pixels take fewer samples; a sphere out of reach needs no normal.
 constexpr Pass proxySpheresPasses[] = {
-    {.name = "detail", .format = Format::r16f, .enabledBy = "detail"},
-    {.name = "distant", .format = Format::r32f, .enabledBy = "distant", .stage = Stage::splat},
-    {.name = "combine", .format = Format::r16f},
+    {.name = "detail", .format = Format::r16f, .enabledBy = "detail", .fetches = surfaceAndSamples},
+    {.name = "distant",
+     .format = Format::r32f,
+     .enabledBy = "distant",
+     .stage = Stage::splat,
+     .fetches = [](const Settings&) { return 2.0; }},
+    {.name = "combine",
+     .format = Format::r16f,
+     .work = Work::filter,
+     .fetches =
+         [](const Settings& s) {
+             return 1.0 + (s["detail"] > 0 ? maybeBlurred(s) : 0) + (s["distant"] > 0 ? 1 : 0);
+         }},
 };
 
 constexpr Technique proxySpheresTechnique{

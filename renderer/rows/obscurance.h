@@ -47,18 +47,28 @@ constexpr Parameter depthVariance{"depthVariance",
                                   1e4f,
                                   "Kim 2022, Bilateral blur, where the radius is 1"};
 
+// Depth, normal and visibility of each pixel of a group, 128, and of those that its blur reaches
+// beyond either end.
+constexpr Fetches groupBlur = [](const Settings& s) {
+    return 3 * (128 + 2 * s["blurRadius"]) / 128.0;
+};
+
 constexpr Pass gatherAndBilateral[] = {
-    {.name = "gather", .format = Format::r16f},
+    {.name = "gather", .format = Format::r16f, .fetches = surfaceAndSamples},
     {.name = "blurColumns",
      .format = Format::r16f,
      .enabledBy = "blur",
      .stage = Stage::columns,
-     .file = "blur_compute.glsl"},
+     .work = Work::filter,
+     .file = "blur_compute.glsl",
+     .fetches = groupBlur},
     {.name = "blurRows",
      .format = Format::r16f,
      .enabledBy = "blur",
      .stage = Stage::rows,
-     .file = "blur_compute.glsl"},
+     .work = Work::filter,
+     .file = "blur_compute.glsl",
+     .fetches = groupBlur},
 };
 
 constexpr Parameter alchemyParameters[] = {
@@ -132,11 +142,31 @@ constexpr Parameter saoParameters[] = {
     power(),
     downscale};
 
+// Of each of seven taps depth and value, and those of its neighbour in the quad; the latter's value
+// only where no edge is between them.
+constexpr Fetches quadBlur = [](const Settings&) { return 1.0 + 7 * 4; };
+
 constexpr Pass saoPasses[] = {
-    {.name = "hierarchy", .format = Format::r32f, .levels = 6},
-    {.name = "gather", .format = Format::r16f},
-    {.name = "blurAcross", .format = Format::r16f, .enabledBy = "blur"},
-    {.name = "blurDown", .format = Format::r16f, .enabledBy = "blur"},
+    {.name = "hierarchy",
+     .format = Format::r32f,
+     .levels = 6,
+     .work = Work::prepare,
+     .fetches = one,
+     .levelFetches = one},
+    // Depth of the pixel and two neighbours; of each sample.
+    {.name = "gather",
+     .format = Format::r16f,
+     .fetches = [](const Settings& s) { return 3.0 + s["samples"]; }},
+    {.name = "blurAcross",
+     .format = Format::r16f,
+     .enabledBy = "blur",
+     .work = Work::filter,
+     .fetches = quadBlur},
+    {.name = "blurDown",
+     .format = Format::r16f,
+     .enabledBy = "blur",
+     .work = Work::filter,
+     .fetches = quadBlur},
 };
 
 constexpr Technique alchemy{"alchemy",

@@ -26,6 +26,8 @@ constexpr Parameter crytekShaderX7Parameters[] = {
     power(),
     downscale};
 
+constexpr auto starcraftPasses = gatherAndBlur(surfaceAndSamples, boxBlur);
+
 constexpr Technique starcraft{"starcraft",
                               "StarCraft II, LearnOpenGL form",
                               "Filion and McNaughton 2008; de Vries 2020; as in Puri 2024 (Leeds), "
@@ -33,13 +35,13 @@ constexpr Technique starcraft{"starcraft",
                               normals,
                               boxKernel,
                               starcraftParameters,
-                              gatherAndBlur};
+                              starcraftPasses};
 constexpr Technique crytekShaderX7{"crytek_shaderx7",
                                    "Crytek 2007, ShaderX7 listing",
                                    "Mittring 2007; Kajalin, ShaderX7 2009",
                                    depthOnly,
                                    nullptr,
                                    crytekShaderX7Parameters,
-                                   gatherAndBlur};
+                                   crytekPasses};
 
 } // namespace obscura::rows::points

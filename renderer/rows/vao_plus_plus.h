@@ -53,14 +53,61 @@ constexpr Parameter vaoPlusPlusParameters[] = {
     power(),
     downscale};
 
+// Along one axis: depth of the pixel; depth and value of each tap.
+constexpr Fetches filterTaps = [](const Settings& s) {
+    const bool gaussian = s["blur"] > 1.5f;
+    return 1 + 2 * (2 * std::floor(gaussian ? s["blurSize"] / 2.0 : s["blur"]) + 1);
+};
+// Ambient and direct light.
+constexpr Fetches brightness = [](const Settings& s) {
+    return s["luminanceSensitivity"] > 0 ? 2.0 : 0.0;
+};
+// Depth and normal of the pixel, four cells of the culling pass.
+constexpr Fetches surfaceAndCells = [](const Settings& s) { return s["culling"] > 0 ? 6.0 : 2.0; };
+
+// Lines: the most; culling and small balls need fewer.
 constexpr Pass vaoPlusPlusPasses[] = {
-    {.name = "cull", .format = Format::r16f, .enabledBy = "culling", .scale = 8},
-    {.name = "gather", .format = Format::r16f},
-    {.name = "blurAcross", .format = Format::r16f, .enabledBy = "blur"},
-    {.name = "blurDown", .format = Format::r16f, .enabledBy = "blur"},
-    {.name = "tint", .format = Format::rgba16f, .enabledBy = "colourBleeding"},
-    {.name = "tintAcross", .format = Format::rgba16f, .enabledBy = "colourBleeding"},
-    {.name = "bleed", .format = Format::rgba16f, .enabledBy = "colourBleeding"},
+    {.name = "cull",
+     .format = Format::r16f,
+     .enabledBy = "culling",
+     .scale = 8,
+     .work = Work::prepare,
+     .fetches = [](const Settings&) { return 2.0 + 8; }},
+    {.name = "gather",
+     .format = Format::r16f,
+     .fetches =
+         [](const Settings& s) {
+             return surfaceAndCells(s) + s["samples"] + (s["blur"] > 0 ? 0 : brightness(s));
+         }},
+    {.name = "blurAcross",
+     .format = Format::r16f,
+     .enabledBy = "blur",
+     .work = Work::filter,
+     .fetches = filterTaps},
+    {.name = "blurDown",
+     .format = Format::r16f,
+     .enabledBy = "blur",
+     .work = Work::filter,
+     .fetches = [](const Settings& s) { return filterTaps(s) + brightness(s); }},
+    // The normal twice; depth and albedo of each line's surface.
+    {.name = "tint",
+     .format = Format::rgba16f,
+     .enabledBy = "colourBleeding",
+     .fetches =
+         [](const Settings& s) {
+             return surfaceAndCells(s) + 1 + 2 * std::ceil(s["samples"] / s["colourBleeding"]);
+         }},
+    {.name = "tintAcross",
+     .format = Format::rgba16f,
+     .enabledBy = "colourBleeding",
+     .work = Work::filter,
+     .fetches = filterTaps},
+    // Depth, visibility and ambient light besides.
+    {.name = "bleed",
+     .format = Format::rgba16f,
+     .enabledBy = "colourBleeding",
+     .work = Work::filter,
+     .fetches = [](const Settings& s) { return filterTaps(s) + 3; }},
 };
 
 constexpr Technique vaoPlusPlus{"vao_plus_plus",

@@ -41,9 +41,18 @@ constexpr Parameter obscurancePointsParameters[] = {
 constexpr Parameter obscuranceAreaParameters[] = {radius, radiusMultiplier(), intensity(), power(),
                                                   downscale};
 
+// A level takes mean and variance of four texels twice; where its size is odd, the last one takes
+// six or nine, which is not counted. Nine texels of each of two levels are gathered.
 constexpr Pass obscuranceAreaPasses[] = {
-    {.name = "moments", .format = Format::rg32f, .levels = 12},
-    {.name = "gather", .format = Format::r16f},
+    {.name = "moments",
+     .format = Format::rg32f,
+     .levels = 12,
+     .work = Work::prepare,
+     .fetches = one,
+     .levelFetches = [](const Settings&) { return 2.0 * 4; }},
+    {.name = "gather",
+     .format = Format::r16f,
+     .fetches = [](const Settings&) { return 1.0 + 2 * 9; }},
 };
 
 constexpr Parameter vaoParameters[] = {
@@ -62,14 +71,14 @@ constexpr Technique obscurance{"volumetric_obscurance",
                                normals,
                                goldenDirections,
                                obscuranceParameters,
-                               gatherAndBlur};
+                               surfaceGatherAndBlur};
 constexpr Technique obscurancePoints{"volumetric_obscurance_points",
                                      "Volumetric obscurance, points",
                                      "Loos and Sloan 2010, point samples",
                                      normals,
                                      ballPoints,
                                      obscurancePointsParameters,
-                                     gatherAndBlur};
+                                     surfaceGatherAndBlur};
 constexpr Technique obscuranceArea{"volumetric_obscurance_area",
                                    "Volumetric obscurance, one area",
                                    "Loos and Sloan 2010, area sample",
@@ -83,6 +92,6 @@ constexpr Technique vao{"vao",
                         normals,
                         goldenDirections,
                         vaoParameters,
-                        gatherAndBlur};
+                        surfaceGatherAndBlur};
 
 } // namespace obscura::rows::volume
