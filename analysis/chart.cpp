@@ -1,6 +1,6 @@
 #include "analysis/chart.h"
 
-#include "analysis/gnuplot.h"
+#include "report/gnuplot.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,10 @@
 #include "analysis/report.h"
 
 #include "analysis/chart.h"
-#include "analysis/html.h"
 #include "analysis/table.h"
 #include "protocols/files.h"
 #include "protocols/version.h"
+#include "report/html.h"
 
 #include <fmt/format.h>
 

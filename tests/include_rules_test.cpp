@@ -32,7 +32,8 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"renderer", {"renderer", "gl", "image", "protocols"}},
     {"stimuli", {"stimuli", "renderer", "gl", "image", "protocols"}},
     {"experiment", {"experiment", "gl", "image", "protocols"}},
-    {"analysis", {"analysis", "image", "protocols"}},
+    {"report", {"report", "protocols"}},
+    {"analysis", {"analysis", "report", "image", "protocols"}},
     {"bench", {"bench", "stimuli", "report", "renderer", "gl", "image", "protocols"}},
 };
 

@@ -1,9 +1,9 @@
 #include "analysis/chart.h"
-#include "analysis/gnuplot.h"
-#include "analysis/html.h"
 #include "analysis/report.h"
 #include "analysis/table.h"
 #include "protocols/csv.h"
+#include "report/gnuplot.h"
+#include "report/html.h"
 #include "tests/analysis/sample_study.h"
 
 #include <gmock/gmock.h>

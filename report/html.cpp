@@ -1,4 +1,4 @@
-#include "analysis/html.h"
+#include "report/html.h"
 
 #include <openssl/evp.h>
 

@@ -1,7 +1,7 @@
-#include "analysis/gnuplot.h"
+#include "report/gnuplot.h"
 
-#include "analysis/html.h"
 #include "protocols/error.h"
+#include "report/html.h"
 
 #include <fmt/format.h>
 #include <spawn.h>
