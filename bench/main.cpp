@@ -1,9 +1,8 @@
+#include "bench/normals.h"
+#include "bench/rays.h"
 #include "renderer/builtin.h"
 #include "renderer/gl/context.h"
 
-#include "bench/normals.h"
-#include "bench/rays.h"
-#include "bench/timing.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
