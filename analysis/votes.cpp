@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <charconv>
 #include <map>
 
 namespace obscura {
@@ -90,8 +89,7 @@ constexpr std::array<std::string_view, 8> countColumns = {
 
 int voteCount(const std::string& cell, const Place& place) {
     int count = 0;
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), count);
-    if (error != std::errc{} || end != cell.data() + cell.size() || count < 0)
+    if (!readCell(cell, count) || count < 0)
         throw Error(place, fmt::format("expected a whole number >= 0, found \"{}\"", cell));
     return count;
 }

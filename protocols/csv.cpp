@@ -1,6 +1,11 @@
 #include "protocols/csv.h"
 
+#include "protocols/error.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <charconv>
 
 namespace obscura {
 
@@ -74,6 +79,12 @@ class Splitter {
     int line_ = 1;
 };
 
+template <typename T>
+bool readNumber(std::string_view cell, T& number) {
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    return error == std::errc{} && end == cell.data() + cell.size();
+}
+
 } // namespace
 
 std::vector<CsvRecord> splitCsv(std::string_view text) {
@@ -82,6 +93,34 @@ std::vector<CsvRecord> splitCsv(std::string_view text) {
         records.push_back(splitter.record());
     return records;
 }
+
+std::string faultOf(const CsvRecord& record, std::size_t columns) {
+    if (!record.ended)
+        return "the line has no end: it was cut off while being written";
+    if (!record.fault.empty())
+        return record.fault;
+    if (record.cells.size() != columns)
+        return fmt::format("expected {} columns, found {}", columns, record.cells.size());
+    return {};
+}
+
+void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
+                 const std::string& file) {
+    for (const std::string& cell : header.cells)
+        if (std::find(names.begin(), names.end(), cell) == names.end())
+            throw Error({file, 1, 0, cell},
+                        fmt::format("unknown column{}", suggestion(cell, names)));
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (i >= header.cells.size() || header.cells[i] != names[i])
+            throw Error({file, 1, static_cast<int>(i) + 1, {}},
+                        fmt::format("expected column \"{}\", found \"{}\"", names[i],
+                                    i < header.cells.size() ? header.cells[i] : "end of line"));
+    if (header.cells.size() > names.size())
+        throw Error({file, 1, 0, header.cells.back()}, "the column stands twice in the header");
+}
+
+bool readCell(std::string_view cell, int& number) { return readNumber(cell, number); }
+bool readCell(std::string_view cell, double& number) { return readNumber(cell, number); }
 
 std::string csvCell(std::string_view value) {
     if (value.find_first_of(",\"\n\r") == value.npos)

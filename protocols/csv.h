@@ -19,6 +19,17 @@ struct CsvRecord {
 // order mark: spreadsheets write both.
 std::vector<CsvRecord> splitCsv(std::string_view text);
 
+// Why a record is not a whole line of so many cells; "" when it is.
+std::string faultOf(const CsvRecord& record, std::size_t columns);
+
+// The header must name these columns in this order; an Error at the first that differs.
+void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
+                 const std::string& file);
+
+// The whole cell as a number; false when it is anything else.
+bool readCell(std::string_view cell, int& number);
+bool readCell(std::string_view cell, double& number);
+
 // The value as one cell, quoted where it must be.
 std::string csvCell(std::string_view value);
 

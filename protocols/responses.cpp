@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
@@ -152,12 +151,6 @@ std::string spell(const Response& response, const Column& column) {
     return std::visit(speller, column.field);
 }
 
-template <typename T>
-bool parseNumber(const std::string& cell, T& value) {
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    return error == std::errc{} && end == cell.data() + cell.size();
-}
-
 bool parseCell(Response& response, const Column& column, const std::string& cell) {
     struct {
         Response& row;
@@ -166,8 +159,8 @@ bool parseCell(Response& response, const Column& column, const std::string& cell
             row.*field = cell;
             return true;
         }
-        bool operator()(int R::*field) const { return parseNumber(cell, row.*field); }
-        bool operator()(double R::*field) const { return parseNumber(cell, row.*field); }
+        bool operator()(int R::*field) const { return readCell(cell, row.*field); }
+        bool operator()(double R::*field) const { return readCell(cell, row.*field); }
         bool operator()(bool R::*field) const {
             row.*field = cell == "1";
             return cell == "0" || cell == "1";
@@ -176,34 +169,18 @@ bool parseCell(Response& response, const Column& column, const std::string& cell
     return std::visit(parser, column.field);
 }
 
-void checkHeader(const CsvRecord& header, const std::string& file) {
+std::vector<std::string> columnNames() {
     std::vector<std::string> names;
     for (const Column& column : columns)
         names.emplace_back(column.name);
-    for (const std::string& cell : header.cells)
-        if (std::find(names.begin(), names.end(), cell) == names.end())
-            throw Error({file, 1, 0, cell},
-                        fmt::format("unknown column{}", suggestion(cell, names)));
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (i >= header.cells.size() || header.cells[i] != names[i])
-            throw Error({file, 1, static_cast<int>(i) + 1, {}},
-                        fmt::format("expected column \"{}\", found \"{}\"", names[i],
-                                    i < header.cells.size() ? header.cells[i] : "end of line"));
-    if (header.cells.size() > names.size())
-        throw Error({file, 1, 0, header.cells.back()}, "the column stands twice in the header");
+    return names;
 }
 
 std::optional<BadRow> parseRow(const CsvRecord& record, const std::string& file,
                                Response& response) {
-    const Place place{file, record.line, 0, {}};
     const std::size_t expected = std::size(columns);
-    if (!record.ended)
-        return BadRow{place, "the line has no end: it was cut off while being written"};
-    if (!record.fault.empty())
-        return BadRow{place, record.fault};
-    if (record.cells.size() != expected)
-        return BadRow{place,
-                      fmt::format("expected {} columns, found {}", expected, record.cells.size())};
+    if (const std::string fault = faultOf(record, expected); !fault.empty())
+        return BadRow{{file, record.line, 0, {}}, fault};
     for (const bool check : {false, true}) // every cell first: a check may read several
         for (std::size_t i = 0; i < expected; ++i)
             if (check ? !columns[i].accepts(response)
@@ -245,7 +222,7 @@ ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
         reject({file, 0, 0, {}}, "expected a header line; the file ends before that line does");
         return result;
     }
-    checkHeader(records.front(), file);
+    checkHeader(records.front(), columnNames(), file);
     for (const CsvRecord& record : std::span(records).subspan(1)) {
         Response response;
         if (const auto bad = parseRow(record, file, response)) {
