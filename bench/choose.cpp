@@ -1,10 +1,10 @@
 #include "bench/choose.h"
 
+#include "bench/measured_view.h"
+#include "bench/timing.h"
 #include "stimuli/match.h"
 #include "stimuli/match_files.h"
 
-#include "bench/measured_view.h"
-#include "bench/timing.h"
 #include <fmt/format.h>
 
 #include <algorithm>

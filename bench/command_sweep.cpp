@@ -47,8 +47,8 @@ std::vector<ImageSize> sizesOf(const std::vector<std::string>& texts) {
         const auto pair = pairOf(text, 'x');
         if (!pair || std::min(pair->first, pair->second) < 16 ||
             std::max(pair->first, pair->second) > 8192)
-            throw Error(fmt::format("expected --size WIDTHxHEIGHT, each 16 ... 8192, found \"{}\"",
-                                    text));
+            throw Error(
+                fmt::format("expected --size WIDTHxHEIGHT, each 16 ... 8192, found \"{}\"", text));
         sizes.push_back({pair->first, pair->second});
     }
     return sizes;
@@ -70,8 +70,8 @@ SweepPlan planOf(const StudyOptions& options, const fs::path& folder) {
         return plan;
     const auto part = pairOf(options.part, '/');
     if (!part || part->first < 1 || part->first > part->second)
-        throw Error(fmt::format("expected --part I/N with I from 1 to N, found \"{}\"",
-                                options.part));
+        throw Error(
+            fmt::format("expected --part I/N with I from 1 to N, found \"{}\"", options.part));
     plan.part = part->first;
     plan.parts = part->second;
     return plan;
@@ -158,8 +158,8 @@ int runChoose(const ChooseOptions& options) {
     SweepStudy study = studyOf(options, folders);
     adjust(study, options.study);
     study.sizes.resize(1);
-    const fs::path folder = options.study.out.empty() ? fs::path("choose-" + study.match.name)
-                                                      : options.study.out;
+    const fs::path folder =
+        options.study.out.empty() ? fs::path("choose-" + study.match.name) : options.study.out;
     Reporting reporting("choosing");
     const Choice choice = choose(study, budget, folders, planOf(options.study, folder),
                                  context.driver(), reporting.progress());

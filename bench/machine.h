@@ -1,9 +1,8 @@
 #pragma once
 
+#include "bench/sweep_row.h"
 #include "renderer/gl/context.h"
 #include "renderer/gl/timer.h"
-
-#include "bench/sweep_row.h"
 
 namespace obscura {
 

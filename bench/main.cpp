@@ -1,179 +1,21 @@
-#include "bench/normals.h"
-#include "bench/rays.h"
-#include "renderer/builtin.h"
-#include "renderer/gl/context.h"
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
+#include "bench/commands.h"
+#include "protocols/error.h"
 
 namespace {
 
-using namespace obscura;
-namespace fs = std::filesystem;
-
-struct Options {
-    std::string scene = "atrium", integral = "cosine";
-    fs::path scenes;
-    std::vector<double> camera{7.6, 1.2, -0.9, -4, 2.4, 1.2};
-    double fovDegrees = 60;
-    int width = 640, height = 360;
-    TraceSettings settings;
-    std::vector<std::string> techniques;
-    double seconds = 5;
-};
-
-// Peak memory of this process, MiB, as Linux counts it; 0 where there is no /proc.
-double peakMemory() {
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.starts_with("VmHWM:"))
-            return std::strtod(line.c_str() + 6, nullptr) / 1024;
-    return 0;
-}
-
-Scene sceneOf(const Options& options) {
-    const auto builtins = builtinSceneNames();
-    return std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end()
-               ? builtinScene(options.scene)
-               : loadScene(options.scenes / options.scene);
-}
-
-Camera cameraOf(const Options& options) {
-    Camera camera;
-    const auto& c = options.camera;
-    camera.position = {c[0], c[1], c[2]};
-    camera.target = {c[3], c[4], c[5]};
-    camera.fovDegrees = options.fovDegrees;
-    return camera;
-}
-
-int rays(const Options& options) {
-    const Scene scene = sceneOf(options);
-    const gl::Context context;
-    const GpuScene gpuScene(scene);
-    const Surfaces surfaces = surfacesOf(gpuScene, GBufferPass(),
-                                         makeFrame(cameraOf(options), options.width, options.height,
-                                                   gpuScene.bounds(), options.settings.seed),
-                                         Normals::smooth);
-    const RayRates rates = measureRays(scene, surfaces, options.settings);
-    fmt::print("{}: {:.1f} million rays within {} m, {}\n", options.scene, rates.rays * 1e-6,
-               options.settings.radius, options.integral);
-    fmt::print("million rays a second and core: ours {:.2f}; bare Embree, one by one {:.2f}, in "
-               "packets {:.2f}\n",
-               rates.ours * 1e-6, rates.single * 1e-6, rates.packets * 1e-6);
-    fmt::print("ratio: {:.2f} one by one, {:.2f} packets; our trace {:.1f} s, peak memory {:.0f} "
-               "MiB\n",
-               rates.ours / rates.single, rates.ours / rates.packets, rates.wall, peakMemory());
-    return 0;
-}
-
-int normals(const Options& options) {
-    const gl::Context context;
-    const NormalsEffect effect = measureNormals(sceneOf(options), cameraOf(options), options.width,
-                                                options.height, options.settings);
-    fmt::print("mean visibility: face {:.4f}, smooth {:.4f}, mapped {:.4f}\n", effect.mean[0],
-               effect.mean[1], effect.mean[2]);
-    fmt::print("RMSE: face-smooth {:.4f}, smooth-mapped {:.4f}, face-mapped {:.4f}; noise {:.4f} "
-               "taken out\n",
-               effect.faceSmooth, effect.smoothMapped, effect.faceMapped, effect.noise);
-    return 0;
-}
-
-// "hbao steps=8 blur=0" on a view of that radius.
-Settings settingsFrom(const std::string& text, double radius) {
-    std::istringstream words(text);
-    std::string word;
-    words >> word;
-    TechniqueSetting setting{word, word, {}, {}};
-    while (words >> word) {
-        const std::size_t equals = word.find('=');
-        char* end = nullptr;
-        const double value =
-            equals == std::string::npos ? 0 : std::strtod(word.c_str() + equals + 1, &end);
-        if (!end || *end || end == word.c_str() + equals + 1)
-            throw Error(fmt::format("expected SETTING=NUMBER after the technique, found \"{}\" in "
-                                    "\"{}\"",
-                                    word, text));
-        setting.settings.push_back({word.substr(0, equals), value, {}});
-    }
-    return settingsOf(setting, radius);
-}
-
-int passes(const Options& options) {
-    const Scene scene = sceneOf(options);
-    const gl::Context context;
-    const gl::TimingChoice choice = gl::honestTiming();
-    const Subject subject(scene);
-    const Probe probe(subject, cameraOf(options), options.width, options.height, Normals::smooth,
-                      options.settings.seed);
-    std::vector<Settings> techniques;
-    for (const std::string& text : options.techniques)
-        techniques.push_back(settingsFrom(text, options.settings.radius));
-    TimingPlan plan;
-    plan.seconds = options.seconds;
-    plan.timing = choice.timing;
-    const auto times = timeTechniques(probe, techniques, options.settings.radius, plan);
-    fmt::print("{}, {}x{}, {}; {}\n", options.scene, options.width, options.height,
-               context.driver().renderer, choice.reason);
-    for (std::size_t i = 0; i < times.size(); ++i) {
-        const TechniqueTime& time = times[i];
-        fmt::print("{}: {:.2f} ms ({:.2f} ... {:.2f}, {} frames); {:.3f} x G-buffer ({:.2f} ms), "
-                   "{:.3f} x starcraft 16; {:.1f} bytes a pixel\n ",
-                   options.techniques[i], time.total.median, time.total.low, time.total.high,
-                   time.frames, time.total.median / time.gbuffer, time.gbuffer,
-                   time.total.median / time.starcraft,
-                   time.bytes / (1.0 * options.width * options.height));
-        for (const PassTime& pass : time.passes)
-            fmt::print(" {} {:.2f}", pass.name, pass.median);
-        fmt::print("\n");
-    }
-    return 0;
-}
-
 int run(int argc, char** argv) {
-    Options options;
-    const char* scenes = std::getenv("OBSCURA_SCENES");
-    options.scenes = scenes ? scenes : ".";
-    CLI::App app("obscura-bench: how fast the parts of Obscura are");
+    using namespace obscura;
+    CLI::App app("obscura-bench: how fast, how right and how steady techniques are");
     app.require_subcommand(1);
-    CLI::App* ray = app.add_subcommand("rays", "our ray tracing beside a bare Embree loop");
-    CLI::App* normal =
-        app.add_subcommand("normals", "what face, smooth and mapped normals do to visibility");
-    CLI::App* pass = app.add_subcommand(
-        "passes", "what each pass of some techniques takes, all timed in turn on one view");
-    pass->add_option("techniques", options.techniques,
-                     "technique and settings in one argument: \"hbao steps=8 blur=0\"")
-        ->required();
-    pass->add_option("--seconds", options.seconds, "of each, or 200 frames")->capture_default_str();
-    for (CLI::App* command : {ray, normal, pass}) {
-        command->add_option("--scene", options.scene, "built-in scene or file in the scenes folder")
-            ->capture_default_str();
-        command->add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
-        command->add_option("--camera", options.camera, "position x y z, target x y z")
-            ->expected(6);
-        command->add_option("--fov", options.fovDegrees, "vertical, degrees")
-            ->capture_default_str();
-        for (auto [name, value] :
-             {std::pair("--width", &options.width), std::pair("--height", &options.height)})
-            command->add_option(name, *value)->check(CLI::Range(1, 16384))->capture_default_str();
-        command->add_option("--radius", options.settings.radius, "metres")->capture_default_str();
-    }
-    for (CLI::App* command : {ray, normal}) {
-        command->add_option("--rays", options.settings.rays, "per pixel")->capture_default_str();
-        command->add_option("--integral", options.integral)
-            ->check(CLI::IsMember(integralNames()))
-            ->capture_default_str();
-    }
+    std::vector<Command> commands;
+    for (auto* add : {viewCommands, sweepCommands, stabilityCommands})
+        for (Command& command : add(app))
+            commands.push_back(std::move(command));
     CLI11_PARSE(app, argc, argv);
-    const std::vector<std::string>& names = integralNames();
-    options.settings.integral = static_cast<Integral>(
-        std::find(names.begin(), names.end(), options.integral) - names.begin());
-    return ray->parsed() ? rays(options) : normal->parsed() ? normals(options) : passes(options);
+    for (const Command& command : commands)
+        if (command.parsed->parsed())
+            return command.run();
+    return 0;
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "bench/measured_view.h"
 
 #include "bench/picture_error.h"
+
 #include <fmt/format.h>
 
 #include <limits>

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "bench/sweep_row.h"
 #include "protocols/sweep.h"
 #include "renderer/lit_view.h"
 #include "renderer/render.h"
 #include "stimuli/truths.h"
-
-#include "bench/sweep_row.h"
 
 #include <map>
 #include <optional>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "renderer/image.h"
-
 #include "bench/sweep_row.h"
+#include "renderer/image.h"
 
 namespace obscura {
 

@@ -1,11 +1,5 @@
 #include "bench/sweep.h"
 
-#include "protocols/files.h"
-#include "renderer/fetches.h"
-#include "stimuli/match.h"
-#include "stimuli/match_sheet.h"
-#include "stimuli/page.h"
-
 #include "bench/cost_growth.h"
 #include "bench/figures.h"
 #include "bench/machine.h"
@@ -13,6 +7,12 @@
 #include "bench/sweep_files.h"
 #include "bench/sweep_page.h"
 #include "bench/timing.h"
+#include "protocols/files.h"
+#include "renderer/fetches.h"
+#include "stimuli/match.h"
+#include "stimuli/match_sheet.h"
+#include "stimuli/page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

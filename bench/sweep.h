@@ -1,10 +1,9 @@
 #pragma once
 
+#include "bench/sweep_row.h"
 #include "protocols/sweep.h"
 #include "renderer/gl/timer.h"
 #include "renderer/render.h"
-
-#include "bench/sweep_row.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,9 +1,8 @@
 #pragma once
 
+#include "bench/sweep_row.h"
 #include "renderer/gl/timer.h"
 #include "renderer/probe.h"
-
-#include "bench/sweep_row.h"
 
 #include <functional>
 #include <span>

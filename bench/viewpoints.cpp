@@ -38,8 +38,8 @@ Camera around(const Bounds& bounds, Random& random) {
     const double distance = glm::length(high - low) * (0.6 + 0.6 * random.uniform()),
                  turn = 2 * std::numbers::pi * random.uniform(), rise = 0.8 * random.uniform();
     Camera camera;
-    camera.position =
-        arrayOf(middle + distance * glm::normalize(glm::dvec3(std::cos(turn), rise, std::sin(turn))));
+    camera.position = arrayOf(
+        middle + distance * glm::normalize(glm::dvec3(std::cos(turn), rise, std::sin(turn))));
     camera.target = arrayOf(middle);
     return camera;
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
 
 namespace obscura {
 
@@ -47,6 +49,14 @@ void Progress::print(double done, const std::string& note, bool last) {
     fmt::print(stderr, "{}{:<22} [{}] {:3.0f} %  {}  {}{}", terminal_ ? "\r\x1b[K" : "", label_,
                bar, share * 100, time, note, terminal_ && !last ? "" : "\n");
     std::fflush(stderr);
+}
+
+double peakMemory() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:"))
+            return std::strtod(line.c_str() + 6, nullptr) / 1024;
+    return 0;
 }
 
 } // namespace obscura

@@ -29,4 +29,7 @@ class Progress {
     Clock::time_point printed_{};
 };
 
+// Peak memory of this process, MiB, as Linux counts it; 0 where there is no /proc.
+double peakMemory();
+
 } // namespace obscura

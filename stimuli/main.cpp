@@ -7,22 +7,12 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
 #include <optional>
 
 namespace {
 
 using namespace obscura;
 namespace fs = std::filesystem;
-
-// Peak memory of this process, MiB, as Linux counts it; 0 where there is no /proc.
-double peakMemory() {
-    std::ifstream status("/proc/self/status");
-    for (std::string line; std::getline(status, line);)
-        if (line.starts_with("VmHWM:"))
-            return std::strtod(line.c_str() + 6, nullptr) / 1024;
-    return 0;
-}
 
 Announce announcing(std::optional<Progress>& progress, const std::string& label) {
     return [&progress, label](int done, int total, const std::string& file) {

@@ -1,0 +1,167 @@
+#include "bench/choose_report.h"
+
+#include "bench/figures.h"
+#include "bench/pareto.h"
+#include "protocols/csv.h"
+#include "protocols/files.h"
+#include "renderer/settings.h"
+#include "report/gnuplot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+const char* nameOf(Rung rung) {
+    switch (rung) {
+    case Rung::time:
+        return "timed";
+    case Rung::glance:
+        return "looked at";
+    case Rung::held_out:
+        return "measured";
+    case Rung::chosen:
+        break;
+    }
+    return "chosen";
+}
+
+const std::string& nameOf(const Candidate& candidate) {
+    return candidate.configuration.setting.name;
+}
+
+std::string limitsOf(const Budget& budget) {
+    std::string text;
+    const auto add = [&](const char* name, const std::optional<double>& most) {
+        if (most)
+            text += fmt::format("{}{} at most {:g}", text.empty() ? "" : ", ", name, *most);
+    };
+    add("RMSE", budget.rmse);
+    add("FLIP", budget.flip);
+    add("FLIP of the lit image", budget.litFlip);
+    add("flicker", budget.flicker);
+    add("milliseconds", budget.milliseconds);
+    return text;
+}
+
+// The candidates that were looked at and would add something: on the front beyond the chosen one.
+std::vector<const Candidate*> dearer(const Choice& choice) {
+    std::vector<const Candidate*> result;
+    double best = choice.candidates[*choice.chosen].rmse;
+    for (std::size_t i = *choice.chosen + 1; i < choice.candidates.size(); ++i)
+        if (choice.candidates[i].rmse < best) {
+            best = choice.candidates[i].rmse;
+            result.push_back(&choice.candidates[i]);
+        }
+    return result;
+}
+
+std::string fragment(const SweepStudy& study, const Budget& budget, const Candidate& candidate) {
+    std::string text = fmt::format(
+        "# Written by obscura-bench choose; a protocol takes it by include = [\"choice.toml\"].\n"
+        "# The cheapest of {} candidates with {}\n# on views that it was not fitted on ({} x {}): "
+        "RMSE {:.4f}, {:.3g} ms.\n[techniques.chosen] # {}\ntechnique = \"{}\"\n",
+        study.match.techniques.size(), limitsOf(budget), study.sizes.front().width,
+        study.sizes.front().height, candidate.rmse, candidate.milliseconds, nameOf(candidate),
+        candidate.configuration.setting.technique);
+    if (candidate.configuration.setting.preset)
+        text += fmt::format("preset = \"{}\"\n", candidate.configuration.setting.preset->name);
+    for (const Setting& given : candidate.configuration.setting.settings)
+        text += fmt::format("{} = {}\n", given.name, given.value);
+    for (const auto& [name, value] : candidate.configuration.fitted)
+        text += fmt::format("{} = {}\n", name, value);
+    return text;
+}
+
+std::string table(const Choice& choice) {
+    std::string text = "configuration,rung,milliseconds,rmse,verdict\n";
+    for (const Candidate& candidate : choice.candidates)
+        text += fmt::format("{},{},{},{},{}\n", csvCell(nameOf(candidate)), nameOf(candidate.rung),
+                            candidate.milliseconds,
+                            std::isnan(candidate.rmse) ? "" : fmt::format("{}", candidate.rmse),
+                            csvCell(candidate.verdict));
+    return text;
+}
+
+// What is free has no logarithm: it stands at the chart's left edge.
+std::string points(const Choice& choice, Rung rung, double least) {
+    std::string text;
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.rung == rung && !std::isnan(candidate.rmse))
+            text += fmt::format("{} {} {}\n", std::max(candidate.milliseconds, least),
+                                candidate.rmse, gnuplotText(nameOf(candidate)));
+    return text.empty() ? "NaN NaN ''\ne\n" : text + "e\n";
+}
+
+Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& choice) {
+    double least = 1e9;
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.milliseconds > 0)
+            least = std::min(least, candidate.milliseconds);
+    least /= 2;
+    Figure figure{"choice", "Time against error of the candidates, and the choice", "", 8, 5.5};
+    figure.script = fmt::format(
+        "set logscale x\nset xlabel {}\nset ylabel {}\nset key outside below\nset grid lc rgb "
+        "'#dddddd'\nset yrange [0:*]\nset xrange [{}:*]\n",
+        gnuplotText(fmt::format("milliseconds at {} x {} (logarithmic; free ones at the left edge)",
+                                study.sizes.front().width, study.sizes.front().height)),
+        gnuplotText("RMSE of matched visibility"), least * 0.9);
+    if (budget.rmse)
+        figure.script += fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} "
+                                     "nohead dashtype 2 lc rgb '#D55E00'\nset label {1} at graph "
+                                     "0.99, first {0} right offset 0, 0.6 tc rgb '#D55E00'\n",
+                                     *budget.rmse, gnuplotText("budget"));
+    figure.script += fmt::format(
+        "plot '-' using 1:2 with points pt 6 ps 0.8 lc rgb '#888888' title {}, '-' using 1:2 with "
+        "points pt 7 ps 1 lc rgb '#0072B2' title {}, '-' using 1:2 with points pt 7 ps 1.8 lc rgb "
+        "'#009E73' title {}, '-' using 1:2:3 with labels offset 0, 1 notitle\n",
+        gnuplotText("seen at a glance (small, one view)"),
+        gnuplotText("measured on held-out views"), gnuplotText("chosen"));
+    figure.script += points(choice, Rung::glance, least) + points(choice, Rung::held_out, least) +
+                     points(choice, Rung::chosen, least) + points(choice, Rung::chosen, least);
+    return figure;
+}
+
+} // namespace
+
+std::string choiceText(const SweepStudy& study, const Budget& budget, const Choice& choice) {
+    std::string text = fmt::format(
+        "{} candidates, {} held-out views, {}; {:.0f} s besides references\n",
+        choice.candidates.size(), study.match.test.size(), limitsOf(budget), choice.seconds);
+    if (!choice.chosen) {
+        text += "None meets the budget. Why, the cheapest first:\n";
+        for (const Candidate& candidate : choice.candidates)
+            text += fmt::format("  {:<34} {:>8.3g} ms  {}\n", nameOf(candidate),
+                                candidate.milliseconds, candidate.verdict);
+        return text;
+    }
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    text += fmt::format("Chosen: {}, {:.3g} ms, RMSE {:.3f}\n", nameOf(chosen), chosen.milliseconds,
+                        chosen.rmse);
+    text += *choice.chosen ? "Cheaper ones, and why not:\n" : "";
+    for (std::size_t i = 0; i < *choice.chosen; ++i)
+        text += fmt::format("  {:<34} {:>8.3g} ms  {}\n", nameOf(choice.candidates[i]),
+                            choice.candidates[i].milliseconds, choice.candidates[i].verdict);
+    const auto more = dearer(choice);
+    text += more.empty() ? "Nothing dearer adds anything.\n"
+                         : "What dearer ones would add (seen at a glance):\n";
+    for (const Candidate* candidate : more)
+        text += fmt::format("  {:<34} {:>8.3g} ms  RMSE {:.3f}\n", nameOf(*candidate),
+                            candidate->milliseconds, candidate->rmse);
+    return text;
+}
+
+void writeChoice(const std::filesystem::path& folder, const SweepStudy& study, const Budget& budget,
+                 const Choice& choice) {
+    writeFile(folder / "choice.csv", table(choice));
+    writeFigures(folder, {figureOf(study, budget, choice)});
+    if (choice.chosen)
+        writeFile(folder / "choice.toml",
+                  fragment(study, budget, choice.candidates[*choice.chosen]));
+}
+
+} // namespace obscura
