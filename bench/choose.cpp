@@ -1,6 +1,5 @@
 #include "bench/choose.h"
 
-#include "bench/measured_view.h"
 #include "bench/timing.h"
 #include "stimuli/match.h"
 #include "stimuli/match_files.h"
@@ -136,7 +135,7 @@ void Choosing::timeAll() {
     for (const TechniqueSetting& technique : study_.match.techniques) {
         Candidate candidate;
         candidate.configuration.setting = technique;
-        candidate.rmse = std::numeric_limits<double>::quiet_NaN();
+        candidate.glance = candidate.rmse = std::numeric_limits<double>::quiet_NaN();
         choice_.candidates.push_back(std::move(candidate));
         settings.push_back(settingsAt(choice_.candidates.back().configuration, radius, false));
     }
@@ -177,10 +176,10 @@ void Choosing::glance() {
         const auto summary = summaryOf(fitted.at(candidate.configuration.setting.name).rows,
                                        nameOf(study.truth), "matched");
         candidate.rung = Rung::glance;
-        candidate.rmse = summary.rmse;
-        if (budget_.rmse && candidate.rmse > *budget_.rmse * glanceFactor + glanceMargin)
+        candidate.glance = summary.rmse;
+        if (budget_.rmse && candidate.glance > *budget_.rmse * glanceFactor + glanceMargin)
             candidate.verdict = fmt::format("RMSE {:.3f} at a glance, budget {:.3f}",
-                                            candidate.rmse, *budget_.rmse);
+                                            candidate.glance, *budget_.rmse);
         else if (budget_.milliseconds &&
                  candidate.milliseconds > *budget_.milliseconds * glanceFactor)
             candidate.verdict = fmt::format("{:.3g} ms at a glance, budget {:.3g}",

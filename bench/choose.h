@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/budget.h"
+#include "bench/measured_view.h"
 #include "bench/sweep.h"
 
 #include <map>
@@ -21,7 +22,8 @@ struct Candidate {
     Configuration configuration;
     Rung rung = Rung::time;
     double milliseconds = 0;       // median; of the last rung
-    double rmse = 0;               // of matched visibility, of the last rung; NaN before `glance`
+    double glance = 0, rmse = 0;   // of matched visibility: at a glance, on held-out views; NaN
+                                   // before those rungs
     std::vector<ViewResult> views; // from `held_out` on
     std::string verdict;           // why it fell out; "" for the chosen one and those not needed
 };

@@ -51,10 +51,10 @@ std::string limitsOf(const Budget& budget) {
 // The candidates that were looked at and would add something: on the front beyond the chosen one.
 std::vector<const Candidate*> dearer(const Choice& choice) {
     std::vector<const Candidate*> result;
-    double best = choice.candidates[*choice.chosen].rmse;
+    double best = choice.candidates[*choice.chosen].glance;
     for (std::size_t i = *choice.chosen + 1; i < choice.candidates.size(); ++i)
-        if (choice.candidates[i].rmse < best) {
-            best = choice.candidates[i].rmse;
+        if (choice.candidates[i].glance < best) {
+            best = choice.candidates[i].glance;
             result.push_back(&choice.candidates[i]);
         }
     return result;
@@ -77,13 +77,14 @@ std::string fragment(const SweepStudy& study, const Budget& budget, const Candid
     return text;
 }
 
+std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+
 std::string table(const Choice& choice) {
-    std::string text = "configuration,rung,milliseconds,rmse,verdict\n";
+    std::string text = "configuration,rung,ms,glance_rmse,rmse,verdict\n";
     for (const Candidate& candidate : choice.candidates)
-        text += fmt::format("{},{},{},{},{}\n", csvCell(nameOf(candidate)), nameOf(candidate.rung),
-                            candidate.milliseconds,
-                            std::isnan(candidate.rmse) ? "" : fmt::format("{}", candidate.rmse),
-                            csvCell(candidate.verdict));
+        text += fmt::format("{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
+                            nameOf(candidate.rung), candidate.milliseconds, cell(candidate.glance),
+                            cell(candidate.rmse), csvCell(candidate.verdict));
     return text;
 }
 
@@ -91,9 +92,10 @@ std::string table(const Choice& choice) {
 std::string points(const Choice& choice, Rung rung, double least) {
     std::string text;
     for (const Candidate& candidate : choice.candidates)
-        if (candidate.rung == rung && !std::isnan(candidate.rmse))
+        if (candidate.rung == rung)
             text += fmt::format("{} {} {}\n", std::max(candidate.milliseconds, least),
-                                candidate.rmse, gnuplotText(nameOf(candidate)));
+                                rung == Rung::glance ? candidate.glance : candidate.rmse,
+                                gnuplotText(nameOf(candidate)));
     return text.empty() ? "NaN NaN ''\ne\n" : text + "e\n";
 }
 
@@ -148,10 +150,12 @@ std::string choiceText(const SweepStudy& study, const Budget& budget, const Choi
                             choice.candidates[i].milliseconds, choice.candidates[i].verdict);
     const auto more = dearer(choice);
     text += more.empty() ? "Nothing dearer adds anything.\n"
-                         : "What dearer ones would add (seen at a glance):\n";
+                         : fmt::format("What dearer ones would add (at a glance, where the chosen "
+                                       "one has RMSE {:.3f}):\n",
+                                       chosen.glance);
     for (const Candidate* candidate : more)
         text += fmt::format("  {:<34} {:>8.3g} ms  RMSE {:.3f}\n", nameOf(*candidate),
-                            candidate->milliseconds, candidate->rmse);
+                            candidate->milliseconds, candidate->glance);
     return text;
 }
 

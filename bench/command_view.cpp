@@ -53,7 +53,7 @@ TraceSettings traceSettingsOf(const Options& options) {
     return settings;
 }
 
-int rays(const Options& options) {
+int runRays(const Options& options) {
     const Scene scene = sceneOf(options);
     const gl::Context context;
     const GpuScene gpuScene(scene);
@@ -73,7 +73,7 @@ int rays(const Options& options) {
     return 0;
 }
 
-int normals(const Options& options) {
+int runNormals(const Options& options) {
     const gl::Context context;
     const NormalsEffect effect = measureNormals(sceneOf(options), cameraOf(options), options.width,
                                                 options.height, traceSettingsOf(options));
@@ -105,7 +105,7 @@ Settings settingsFrom(const std::string& text, double radius) {
     return settingsOf(setting, radius);
 }
 
-int passes(const Options& options) {
+int runPasses(const Options& options) {
     const Scene scene = sceneOf(options);
     const gl::Context context;
     const gl::TimingChoice choice = gl::honestTiming();
@@ -172,9 +172,9 @@ std::vector<Command> viewCommands(CLI::App& app) {
         ->required();
     pass->add_option("--seconds", options->seconds, "of each, or 200 frames")
         ->capture_default_str();
-    return {{ray, [options] { return rays(*options); }},
-            {normal, [options] { return normals(*options); }},
-            {pass, [options] { return passes(*options); }}};
+    return {{ray, [options] { return runRays(*options); }},
+            {normal, [options] { return runNormals(*options); }},
+            {pass, [options] { return runPasses(*options); }}};
 }
 
 } // namespace obscura

@@ -50,8 +50,7 @@ constexpr Parameter vaoPlusPlusParameters[] = {
      "ours: fills that window; the paper leaves it to the user"},
     radiusMultiplier(),
     intensity(),
-    power(),
-    downscale};
+    power()};
 
 // Along one axis: depth of the pixel; depth and value of each tap.
 constexpr Fetches filterTaps = [](const Settings& s) {
