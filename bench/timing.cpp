@@ -35,7 +35,7 @@ struct Runner {
 void runOnce(const Probe& probe, Runner& runner, gl::Timer& timer, bool keep) {
     runner.order.clear();
     timer.start();
-    probe.run(runner.settings, runner.passes, [&](const Pass& pass) {
+    probe.run(runner.settings, runner.passes, 0, [&](const Pass& pass) {
         timer.mark();
         runner.order.push_back(&pass);
     });

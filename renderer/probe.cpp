@@ -13,6 +13,15 @@ Level whiteLight() {
     return level;
 }
 
+// Empty pixels, which hold `empty`, stay so.
+void store(const Probe::StoredDepth& storedDepth, float empty, const GBuffer& gbuffer) {
+    const int width = gbuffer.target().width(), height = gbuffer.target().height();
+    std::vector<float> depth = gl::readFloats(gbuffer.depth(), width, height, gl::Format::r32f);
+    for (float& value : depth)
+        value = value < empty ? storedDepth(value) : value;
+    gl::writeFloats(gbuffer.depth(), width, height, depth);
+}
+
 } // namespace
 
 // What a technique sees, with or without a guard band around the image.
@@ -34,8 +43,9 @@ const ProxySpheres& Subject::spheres() const {
 }
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
-             std::uint64_t seed)
+             std::uint64_t seed, StoredDepth storedDepth)
     : subject_(subject), camera_(camera), width_(width), height_(height), kind_(kind), seed_(seed),
+      storedDepth_(std::move(storedDepth)),
       surfaces_(surfacesOf(subject.scene(), subject.pass(),
                            makeFrame(camera, width, height, subject.scene().bounds(), seed),
                            kind)) {
@@ -56,6 +66,8 @@ const Probe::Sight& Probe::sight(int guard) const {
         known.reset(
             new Sight{frame, frameBuffer(frame), GBuffer(width, height, {true, false, kind_}), {}});
         draw(*known);
+        if (storedDepth_)
+            store(storedDepth_, frame.depth.y, known->gbuffer);
     }
     return *known;
 }
@@ -67,14 +79,14 @@ void Probe::draw(const Sight& sight) const {
 
 void Probe::drawGBuffer() const { draw(sight(0)); }
 
-OcclusionPasses Probe::passesFor(const Settings& settings) const {
-    const int guard = guardPixels(settings, height_);
+OcclusionPasses Probe::passesFor(const Settings& settings, int beyond) const {
+    const int guard = guardPixels(settings, height_) + beyond;
     return OcclusionPasses(settings, width_ + 2 * guard, height_ + 2 * guard);
 }
 
-const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& passes,
+const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& passes, int beyond,
                               const PassObserver& issued) const {
-    const Sight& seen = sight(guardPixels(settings, height_));
+    const Sight& seen = sight(guardPixels(settings, height_) + beyond);
     OcclusionInputs inputs{.gbuffer = seen.gbuffer, .frame = &seen.frame};
     bindFrame(seen.frameBlock);
     if (settings.technique().reads & light) {
@@ -96,17 +108,17 @@ Image Probe::visibility(const Settings& settings) const {
     return visibility(settings, passes);
 }
 
-Image Probe::visibility(const Settings& settings, OcclusionPasses& passes) const {
+Image Probe::visibility(const Settings& settings, OcclusionPasses& passes, int beyond) const {
     Image image{width_, height_, 1, {}};
     if (settings.technique().passes.empty()) {
         image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                             1.0f);
         return image;
     }
-    const int guard = guardPixels(settings, height_), width = width_ + 2 * guard;
+    const int guard = guardPixels(settings, height_) + beyond, width = width_ + 2 * guard;
     passes.set(settings);
     const std::vector<float> values =
-        gl::readFloats(run(settings, passes), width, height_ + 2 * guard, gl::Format::r32f);
+        gl::readFloats(run(settings, passes, beyond), width, height_ + 2 * guard, gl::Format::r32f);
     for (int y = guard + height_ - 1; y >= guard; --y) {
         const auto row = values.begin() + y * width + guard;
         image.pixels.insert(image.pixels.end(), row, row + width_);

@@ -3,6 +3,7 @@
 #include "renderer/ao.h"
 #include "renderer/surfaces.h"
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <vector>
@@ -33,22 +34,27 @@ class Subject {
 // benches measure with. Without anti-aliasing: a pixel is the surface point at its centre.
 class Probe {
   public:
+    // What becomes of a view depth (metres) in the buffer that techniques read, for example when it
+    // has fewer bits. surfaces() keep the true one.
+    using StoredDepth = std::function<float(float)>;
+
     // The subject must outlive the probe.
     Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
-          std::uint64_t seed);
+          std::uint64_t seed, StoredDepth storedDepth = {});
     ~Probe();
     Probe(Probe&&) noexcept;
 
     // Visibility as the technique's last pass leaves it: 1 channel, top row first. The passes,
-    // those of passesFor() of like settings (OcclusionPasses::set), may be shared by probes of one
-    // size.
+    // those of passesFor() of like settings (OcclusionPasses::set) and the same `beyond`, may be
+    // shared by probes of one size. They see `beyond` more pixels past each border than the
+    // technique asks for.
     Image visibility(const Settings& settings) const;
-    Image visibility(const Settings& settings, OcclusionPasses& passes) const;
-    OcclusionPasses passesFor(const Settings& settings) const;
+    Image visibility(const Settings& settings, OcclusionPasses& passes, int beyond = 0) const;
+    OcclusionPasses passesFor(const Settings& settings, int beyond = 0) const;
 
     // The same without fetching the picture: what there is to time.
     const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes,
-                           const PassObserver& issued = {}) const;
+                           int beyond = 0, const PassObserver& issued = {}) const;
     void drawGBuffer() const; // once more
 
     int width() const { return width_; }
@@ -69,6 +75,7 @@ class Probe {
     int width_, height_;
     Normals kind_;
     std::uint64_t seed_;
+    StoredDepth storedDepth_;
     Surfaces surfaces_;
     std::vector<bool> shown_;
     mutable std::map<int, std::unique_ptr<Sight>>

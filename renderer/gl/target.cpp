@@ -128,8 +128,7 @@ Texture panoramaTexture(int width, int height, std::span<const float> rgb) {
 
 Texture floatTexture(int width, int height, std::span<const float> values) {
     Texture texture = targetTexture(width, height, Format::r32f, "values");
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RED, GL_FLOAT, values.data());
+    writeFloats(texture, width, height, values);
     return texture;
 }
 
@@ -162,6 +161,11 @@ std::vector<float> readFloats(const Texture& texture, int width, int height, For
     glGetTextureImage(texture.name(), 0, layout.external, GL_FLOAT,
                       static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
     return values;
+}
+
+void writeFloats(const Texture& texture, int width, int height, std::span<const float> values) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RED, GL_FLOAT, values.data());
 }
 
 Target::Target(int width, int height, std::span<const Format> colours, bool depth,

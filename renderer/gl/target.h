@@ -45,6 +45,8 @@ void bindTexture(int unit, const Texture& texture);
 std::vector<std::byte> readBytes(const Texture& texture, int width, int height, Format format);
 // The same as floats with the format's number of channels.
 std::vector<float> readFloats(const Texture& texture, int width, int height, Format format);
+// Replaces the content of a texture of one channel, rows from the bottom.
+void writeFloats(const Texture& texture, int width, int height, std::span<const float> values);
 
 // Textures that are drawn into together.
 class Target {

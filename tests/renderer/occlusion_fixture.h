@@ -4,12 +4,12 @@
 #include "renderer/gl/context.h"
 #include "renderer/image.h"
 #include "renderer/proxies.h"
+#include "renderer/quads.h"
 #include "renderer/settings.h"
 #include "renderer/traced.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <memory>
 #include <optional>
 
@@ -26,22 +26,6 @@ class GlTest : public testing::Test {
 
     inline static std::unique_ptr<gl::Context> context;
 };
-
-// Adds a quad of one material, counter-clockwise corners seen from its front.
-inline void addQuad(Scene& scene, std::array<glm::vec3, 4> corners) {
-    if (scene.materials.empty()) {
-        scene.materials.push_back({});
-        scene.meshes.push_back({});
-    }
-    const glm::vec3 normal =
-        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    const auto first = static_cast<std::uint32_t>(scene.vertices.size());
-    for (const glm::vec3& corner : corners)
-        scene.vertices.push_back({corner, normal, {}, {}});
-    for (const std::uint32_t i : {0, 1, 2, 0, 2, 3})
-        scene.indices.push_back(first + i);
-    scene.meshes[0].indexCount = static_cast<std::uint32_t>(scene.indices.size());
-}
 
 // Constant white light from everywhere, for techniques that read light.
 inline Level whiteLight() {

@@ -1,0 +1,253 @@
+#include "bench/failure_scenes.h"
+#include "bench/failure_test.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <numbers>
+
+namespace obscura {
+
+namespace {
+
+class BorderTest : public FailureTest {
+  public:
+    explicit BorderTest(ImageSize size)
+        : scene_(hallScene()), view_(scene_, hallCamera(), size),
+          // A multiple of every noise tile but those of 3 pixels, which the middle corrects for.
+          guard_(64 * static_cast<int>(std::ceil(size.height / 160.0))) {
+        const double ring = view_.radiusPixels();
+        const auto inside = [=](const SeenPoint& point) {
+            return std::abs(static_cast<double>(point.pixelsAcross)) < size.width / 2.0 - ring &&
+                   std::abs(static_cast<double>(point.pixelsUp)) < size.height / 2.0 - ring;
+        };
+        middle_ = view_.select(inside);
+        ring_ = view_.select([=](const SeenPoint& point) { return !inside(point); });
+    }
+    Finding measure(const TestedTechnique& technique) const override {
+        const Image image = technique.visibility(view_.probe());
+        const Image padded = technique.visibility(view_.probe(), guard_);
+        const Difference ring = difference(image, padded, ring_);
+        const double middle = difference(image, padded, middle_).rms;
+        return {{{"RMSE within a radius of the border",
+                  std::sqrt(std::max(ring.rms * ring.rms - middle * middle, 0.0))},
+                 {"RMSE elsewhere, taken off", middle},
+                 {"occlusion lost at the border", ring.mean},
+                 {"largest difference", ring.largest}},
+                image,
+                padded};
+    }
+    const Image& truth() const override { return view_.truth(); }
+
+  private:
+    FailureScene scene_;
+    FailureView view_;
+    int guard_; // pixels
+    Selection ring_, middle_;
+};
+
+class ResolutionTest : public FailureTest {
+  public:
+    explicit ResolutionTest(ImageSize size)
+        : scene_(hallScene()), coarse_(scene_, hallCamera(), {size.width / 2, size.height / 2}),
+          fine_(scene_, hallCamera(), {size.width / 2 * ratio, size.height / 2 * ratio}) {
+        const int width = size.width / 2;
+        std::size_t i = 0;
+        for (const SeenPoint& point : coarse_.points()) {
+            const int x = static_cast<int>(i) % width, y = static_cast<int>(i) / width;
+            ++i;
+            glm::vec3 centre(0);
+            forEachFine(x, y, width, [&](std::size_t at) {
+                centre += fine_.points()[at].position / static_cast<float>(ratio * ratio);
+            });
+            smooth_.push_back(point.shown && glm::distance(centre, point.position) < 0.02f);
+        }
+    }
+    Finding measure(const TestedTechnique& technique) const override {
+        const Image image = technique.visibility(coarse_.probe());
+        const Image large = technique.visibility(fine_.probe());
+        Image shrunk{image.width, image.height, 1, {}};
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                float sum = 0;
+                forEachFine(x, y, image.width, [&](std::size_t at) { sum += large.pixels[at]; });
+                shrunk.pixels.push_back(sum / static_cast<float>(ratio * ratio));
+            }
+        const Difference found = difference(image, shrunk, smooth_);
+        return {{{"RMSE of a quarter of the lines", found.rms,
+                  fmt::format("{} lines against {}", image.height, large.height)},
+                 {"occlusion gained by fewer lines", found.mean}},
+                image,
+                shrunk};
+    }
+    const Image& truth() const override { return coarse_.truth(); }
+
+  private:
+    static constexpr int ratio = 4; // 540 lines against 2160
+
+    template <typename Visit>
+    static void forEachFine(int x, int y, int coarseWidth, Visit visit) {
+        for (int row = y * ratio; row < (y + 1) * ratio; ++row)
+            for (int column = x * ratio; column < (x + 1) * ratio; ++column)
+                visit(static_cast<std::size_t>(row * coarseWidth * ratio + column));
+    }
+
+    FailureScene scene_;
+    FailureView coarse_, fine_;
+    Selection smooth_; // where a coarse pixel and its fine ones show one place
+};
+
+// An image of a rolled camera, turned back.
+class RolledView {
+  public:
+    RolledView(const FailureScene& scene, const FailureView& level, double degrees, ImageSize size)
+        : degrees_(degrees), size_(size), view_(scene, hallCamera(degrees), size) {
+        for (const SeenPoint& point : level.points()) {
+            const std::array<Tap, 4> taps = tapsAt(point);
+            glm::vec3 seen(0);
+            for (const Tap& tap : taps)
+                seen += tap.weight * view_.points()[tap.pixel].position;
+            const bool turned = std::hypot(point.pixelsAcross, point.pixelsUp) <
+                                static_cast<float>(std::min(size.width, size.height)) / 2 - 1;
+            same_.push_back(point.shown && turned && glm::distance(seen, point.position) < 0.02f);
+            taps_.push_back(taps);
+        }
+    }
+    double degrees() const { return degrees_; }
+    const FailureView& view() const { return view_; }
+    // Pixels that show the same place in both.
+    const Selection& same() const { return same_; }
+    Image turnedBack(const Image& image) const {
+        Image result = image;
+        for (std::size_t i = 0; i < taps_.size(); ++i) {
+            result.pixels[i] = 0;
+            for (const Tap& tap : taps_[i])
+                result.pixels[i] += tap.weight * image.pixels[tap.pixel];
+        }
+        return result;
+    }
+
+  private:
+    struct Tap {
+        std::size_t pixel;
+        float weight;
+    };
+    std::array<Tap, 4> tapsAt(const SeenPoint& point) const {
+        const double radians = degrees_ * std::numbers::pi / 180;
+        const float sine = static_cast<float>(std::sin(radians));
+        const float cosine = static_cast<float>(std::cos(radians));
+        const float across = cosine * point.pixelsAcross - sine * point.pixelsUp;
+        const float up = sine * point.pixelsAcross + cosine * point.pixelsUp;
+        const float x = std::clamp(across + static_cast<float>(size_.width) / 2 - 0.5f, 0.0f,
+                                   static_cast<float>(size_.width) - 1.001f);
+        const float y = std::clamp(static_cast<float>(size_.height) / 2 - up - 0.5f, 0.0f,
+                                   static_cast<float>(size_.height) - 1.001f);
+        const float right = x - std::floor(x), below = y - std::floor(y);
+        const auto pixel = static_cast<std::size_t>(static_cast<int>(y) * size_.width +
+                                                    static_cast<int>(x));
+        const auto width = static_cast<std::size_t>(size_.width);
+        return {Tap{pixel, (1 - right) * (1 - below)}, Tap{pixel + 1, right * (1 - below)},
+                Tap{pixel + width, (1 - right) * below}, Tap{pixel + width + 1, right * below}};
+    }
+
+    double degrees_;
+    ImageSize size_;
+    FailureView view_;
+    Selection same_;
+    std::vector<std::array<Tap, 4>> taps_;
+};
+
+class RollTest : public FailureTest {
+  public:
+    explicit RollTest(ImageSize size)
+        : scene_(hallScene()), level_(scene_, hallCamera(), size) {
+        for (const double degrees : {15, 30, 45, 60, 75, 90})
+            rolled_.emplace_back(scene_, level_, degrees, size);
+    }
+    Finding measure(const TestedTechnique& technique) const override {
+        Finding finding{{{"RMSE at the worst roll"}}, {}, technique.visibility(level_.probe())};
+        for (const RolledView& rolled : rolled_) {
+            const Image image = rolled.turnedBack(technique.visibility(rolled.view().probe()));
+            const Difference found = difference(image, finding.expected, rolled.same());
+            finding.measures.push_back({fmt::format("RMSE at {}°", rolled.degrees()), found.rms});
+            finding.measures.push_back(
+                {fmt::format("occlusion gained at {}°", rolled.degrees()), found.mean});
+            if (finding.picture.pixels.empty() || found.rms > finding.measures[0].value) {
+                finding.measures[0].value = found.rms;
+                finding.measures[0].note = fmt::format("{}°", rolled.degrees());
+                finding.picture = image;
+            }
+        }
+        return finding;
+    }
+    const Image& truth() const override { return level_.truth(); }
+
+  private:
+    FailureScene scene_;
+    FailureView level_;
+    std::deque<RolledView> rolled_;
+};
+
+class ScaleTest : public FailureTest {
+  public:
+    explicit ScaleTest(ImageSize size) {
+        for (const double scale : scales) {
+            scenes_.emplace_back(hallScene(scale));
+            views_.emplace_back(scenes_.back(), hallCamera(0, scale), size);
+        }
+        all_ = views_.front().select([](const SeenPoint&) { return true; });
+    }
+    Finding measure(const TestedTechnique& technique) const override {
+        Finding finding{{{"RMSE at the worst scale"}}, {}, technique.visibility(views_[0].probe())};
+        for (std::size_t i = 1; i < views_.size(); ++i) {
+            const Image image = technique.scaled(scales[i]).visibility(views_[i].probe());
+            const double found = difference(image, finding.expected, all_).rms;
+            const std::string name = fmt::format("x {}", scales[i]);
+            finding.measures.push_back({"RMSE at " + name, found});
+            if (finding.picture.pixels.empty() || found > finding.measures[0].value) {
+                finding.measures[0].value = found;
+                finding.measures[0].note = name;
+                finding.picture = image;
+            }
+        }
+        return finding;
+    }
+    const Image& truth() const override { return views_.front().truth(); }
+
+  private:
+    static constexpr double scales[] = {1, 0.01, 100};
+    std::deque<FailureScene> scenes_;
+    std::deque<FailureView> views_;
+    Selection all_;
+};
+
+const FailureTestRow rows[] = {
+    {{"border", "Screen border",
+      "A hall, drawn alone and with a wide border that only the technique sees: how the image "
+      "changes within a radius of its edge. Truth: not at all.",
+      "RMSE within a radius of the border", 0.02, 0.15},
+     makeTest<BorderTest>},
+    {{"resolution", "Resolution change",
+      "The hall with a quarter of the lines against all of them, averaged, where both show the "
+      "same place (as 540 lines against 4K). Truth: no difference.",
+      "RMSE of a quarter of the lines", 0.02, 0.15},
+     makeTest<ResolutionTest>},
+    {{"roll", "Camera roll",
+      "The hall with the camera turned about its line of sight by 15 to 90 degrees, turned back, "
+      "where both show the same place. Truth: no difference.",
+      "RMSE at the worst roll", 0.02, 0.15},
+     makeTest<RollTest>},
+    {{"scale", "Scale",
+      "The hall, its camera and the radius times 0.01 and times 100. Truth: the same image.",
+      "RMSE at the worst scale", 0.01, 0.15},
+     makeTest<ScaleTest>},
+};
+
+} // namespace
+
+std::span<const FailureTestRow> invarianceTests() { return rows; }
+
+} // namespace obscura

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "bench/failure_view.h"
+#include "bench/stability_cell.h"
+#include "bench/tested_technique.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+struct Measured {
+    std::string measure; // words
+    double value = 0;
+    std::string note = {}; // StabilityCell::note
+};
+
+// What a test finds about one technique.
+struct Finding {
+    std::vector<Measured> measures; // the headline first
+    Image picture, expected;        // visibility where the technique does worst, and as it should be
+};
+
+// A failure test whose scenes are built and drawn, for techniques to take one after the other.
+class FailureTest {
+  public:
+    virtual ~FailureTest() = default;
+    virtual Finding measure(const TestedTechnique& technique) const = 0;
+    // What the test's pictures are to be compared with: ray tracing.
+    virtual const Image& truth() const = 0;
+};
+
+struct FailureTestRow {
+    StabilityTest about;
+    std::unique_ptr<FailureTest> (*make)(ImageSize size);
+};
+template <typename Test>
+std::unique_ptr<FailureTest> makeTest(ImageSize size) {
+    return std::make_unique<Test>(size);
+}
+
+// Where shapes deceive: planes, edges, things before others, thin and hidden ones.
+std::span<const FailureTestRow> shapeTests();
+// Where the camera does: nearness, distance, the noise tile on its screen.
+std::span<const FailureTestRow> cameraTests();
+// What should change nothing and does: borders, resolution, roll and scale.
+std::span<const FailureTestRow> invarianceTests();
+
+} // namespace obscura

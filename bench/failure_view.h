@@ -1,0 +1,62 @@
+#pragma once
+
+#include "protocols/match.h"
+#include "renderer/probe.h"
+#include "renderer/reference.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace obscura {
+
+// A scene that is ready to be drawn and to be traced.
+struct FailureScene {
+    explicit FailureScene(const Scene& scene) : subject(scene), tracer(scene) {}
+
+    Subject subject;
+    RayTracer tracer;
+};
+
+// What a pixel shows.
+struct SeenPoint {
+    bool shown = false;     // otherwise nothing
+    glm::vec3 position{0};  // of the world
+    float degrees = 0;      // between the face's normal and the direction to the camera
+    float pixelsAcross = 0; // the point is this many pixels right of the image's middle,
+    float pixelsUp = 0;     // and this many above it
+};
+
+// Which pixels a measure is about; rows from top to bottom.
+using Selection = std::vector<bool>;
+
+// What a camera sees of a scene, which must live as long: for techniques to be run on, and the
+// truth about it.
+class FailureView {
+  public:
+    FailureView(const FailureScene& scene, const Camera& camera, ImageSize size,
+                Probe::StoredDepth storedDepth = {});
+
+    const Probe& probe() const { return probe_; }
+    const std::vector<SeenPoint>& points() const { return points_; } // rows from top to bottom
+    // Pixels that show something for which the condition holds. None at all is an Error: the image
+    // is too small for the test.
+    Selection select(const std::function<bool(const SeenPoint&)>& condition) const;
+    // Pixels that a radius of 1 m covers at the focus distance.
+    double radiusPixels() const;
+    // Visibility by ray tracing with a radius of 1 m; traced when first asked for.
+    const Image& truth() const;
+
+  private:
+    const FailureScene& scene_;
+    Probe probe_;
+    std::vector<SeenPoint> points_;
+    mutable std::optional<Image> truth_;
+};
+
+// Of visibility, over the selected pixels.
+double meanOcclusion(const Image& visibility, const Selection& selection);
+double largestOcclusion(const Image& visibility, const Selection& selection);
+Difference difference(const Image& first, const Image& second, const Selection& selection);
+
+} // namespace obscura

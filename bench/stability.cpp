@@ -1,0 +1,117 @@
+#include "bench/stability.h"
+
+#include "bench/failure_test.h"
+#include "bench/stability_csv.h"
+#include "bench/stability_page.h"
+#include "protocols/files.h"
+#include "stimuli/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<const FailureTestRow*> allRows() {
+    std::vector<const FailureTestRow*> rows;
+    for (const auto tests : {shapeTests(), cameraTests(), invarianceTests()})
+        for (const FailureTestRow& row : tests)
+            rows.push_back(&row);
+    return rows;
+}
+
+// "pictures/halo-hbao-steps-8.png"
+std::string pictureName(std::string_view test, const std::string& configuration) {
+    std::string name = fmt::format("pictures/{}-{}.png", test, configuration);
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ' ' || c == '='; }, '-');
+    return name;
+}
+
+// Visibility, and beside it what is wrong with it.
+Image8 pictureOf(const Finding& finding, double fullColour) {
+    constexpr int gap = 4;
+    const int width = finding.picture.width, height = finding.picture.height;
+    Page page(2 * width + gap, height);
+    page.image(0, 0, grey(finding.picture));
+    page.image(width + gap, 0,
+               signedError(finding.picture, finding.expected, static_cast<float>(fullColour)));
+    return page.finish();
+}
+
+StabilityCell truthCell(const FailureTestRow& row, const FailureTest& test, const fs::path& folder) {
+    const std::string picture = pictureName(row.about.id, truthName);
+    writePng(folder / picture, grey(test.truth()));
+    return {truthName, "", std::string(row.about.id), std::string(row.about.measure), 0, picture,
+            "ray tracing"};
+}
+
+std::vector<StabilityCell> cellsOf(const FailureTestRow& row, const FailureTest& test,
+                                   const TestedTechnique& technique, const fs::path& folder) {
+    const Finding finding = test.measure(technique);
+    std::vector<StabilityCell> cells;
+    for (const Measured& measured : finding.measures)
+        cells.push_back({technique.configuration(),
+                         std::string(technique.settings().technique().id),
+                         std::string(row.about.id), measured.measure, measured.value, "",
+                         measured.note});
+    cells.front().picture = pictureName(row.about.id, technique.configuration());
+    writePng(folder / cells.front().picture, pictureOf(finding, row.about.fail));
+    return cells;
+}
+
+} // namespace
+
+std::vector<StabilityTest> stabilityTests() {
+    std::vector<StabilityTest> tests;
+    for (const FailureTestRow* row : allRows())
+        tests.push_back(row->about);
+    return tests;
+}
+
+std::vector<std::string> screenTechniques() {
+    std::vector<std::string> ids;
+    for (const Technique& technique : techniques())
+        if (!(technique.reads & rays))
+            ids.emplace_back(technique.id);
+    return ids;
+}
+
+std::vector<StabilityCell> runStability(const StabilityOptions& options,
+                                        const StabilityProgress& progress) {
+    std::vector<TestedTechnique> tested; // all names are checked before the first is run
+    for (const std::string& configuration : options.configurations)
+        tested.emplace_back(configuration);
+    std::vector<StabilityCell> cells;
+    std::vector<std::unique_ptr<FailureTest>> tests;
+    const std::vector<const FailureTestRow*> rows = allRows();
+    const double steps = static_cast<double>(rows.size() * (tested.size() + 1));
+    double done = 0;
+    for (const FailureTestRow* row : rows) {
+        progress(done++ / steps, fmt::format("scene of {}", row->about.id));
+        tests.push_back(row->make(options.size));
+        cells.push_back(truthCell(*row, *tests.back(), options.folder));
+    }
+    for (const TestedTechnique& technique : tested) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            progress(done++ / steps,
+                     fmt::format("{}, {}", technique.configuration(), rows[i]->about.id));
+            for (StabilityCell& cell : cellsOf(*rows[i], *tests[i], technique, options.folder))
+                cells.push_back(std::move(cell));
+        }
+        writeFile(options.folder / "stability.csv", stabilityCsv(stabilityTests(), cells));
+    }
+    writeStabilityPage(options.folder);
+    return cells;
+}
+
+void writeStabilityPage(const fs::path& folder) {
+    writeFile(folder / "stability.html",
+              stabilityHtml(stabilityTests(), readStabilityCsv(folder / "stability.csv"), folder));
+}
+
+} // namespace obscura

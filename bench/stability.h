@@ -1,0 +1,38 @@
+#pragma once
+
+#include "bench/stability_cell.h"
+#include "protocols/match.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// `obscura-bench stability`: techniques through every failure test. The folder gets stability.csv
+// (stability_csv.h), pictures/TEST-CONFIGURATION.png and stability.html (stability_page.h).
+
+struct StabilityOptions {
+    std::vector<std::string> configurations; // tested_technique.h
+    std::filesystem::path folder;
+    ImageSize size{320, 180}; // of the tests' images; some derive theirs from it
+};
+
+// All tests, in the order of the page's columns.
+std::vector<StabilityTest> stabilityTests();
+// The defaults of every technique of the table that sees only the screen.
+std::vector<std::string> screenTechniques();
+
+// The share done, 0 ... 1, and what is at hand.
+using StabilityProgress = std::function<void(double, const std::string&)>;
+
+// Runs the tests. The CSV is written again after each technique, so that finished ones are kept,
+// and the page at the end. A context must be current. Returns all that stands in the CSV.
+std::vector<StabilityCell> runStability(const StabilityOptions& options,
+                                        const StabilityProgress& progress);
+
+// Makes the page anew from the folder's CSV and pictures.
+void writeStabilityPage(const std::filesystem::path& folder);
+
+} // namespace obscura

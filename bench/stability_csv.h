@@ -1,0 +1,28 @@
+#pragma once
+
+#include "bench/stability_cell.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// stability.csv: configuration, technique, test, measure, value, pass, picture, note. `pass` is 1
+// or 0 for headlines, empty for other measures; "nan" stands for no value.
+std::string stabilityCsv(std::span<const StabilityTest> tests,
+                         const std::vector<StabilityCell>& cells);
+
+// The same back from a file; `pass` is not read. What is not such a file is an Error that names the
+// line.
+std::vector<StabilityCell> readStabilityCsv(const std::filesystem::path& path);
+
+// The test's headline for a configuration; null when it was not measured.
+const StabilityCell* headline(const std::vector<StabilityCell>& cells,
+                              const std::string& configuration, const StabilityTest& test);
+
+// Whether a headline is no failure.
+bool passes(const StabilityTest& test, double value);
+
+} // namespace obscura
