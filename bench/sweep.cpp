@@ -10,7 +10,6 @@
 #include "protocols/files.h"
 #include "renderer/fetches.h"
 #include "stimuli/match.h"
-#include "stimuli/match_sheet.h"
 #include "stimuli/page.h"
 
 #include <fmt/format.h>
@@ -248,8 +247,8 @@ void Sweeping::addErrors(SweepRow& row, MeasuredView& seen, const Configuration&
                                                          row.view, row.width, row.radius)));
         const int width = 320, height = std::max(1, width * row.height / row.width);
         writePng(plan_.folder / row.thumbnail,
-                 sideBySide(shrunk(greyPicture(image), width, height),
-                            shrunk(differencePicture(image, seen.truth()), width, height)));
+                 sideBySide(shrunk(grey(image), width, height),
+                            shrunk(signedError(image, seen.truth(), 0.25f), width, height)));
     }
 }
 

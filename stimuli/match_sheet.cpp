@@ -14,27 +14,6 @@ constexpr float fullColour = 0.25f;
 
 } // namespace
 
-Image8 greyPicture(const Image& visibility) {
-    const Image8 code = quantised(visibility);
-    Image8 result{code.width, code.height, 3, {}};
-    for (const std::uint8_t value : code.pixels)
-        result.pixels.insert(result.pixels.end(), 3, value);
-    return result;
-}
-
-Image8 differencePicture(const Image& image, const Image& reference) {
-    Image8 result{image.width, image.height, 3, {}};
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const float d =
-            std::clamp((image.pixels[i] - reference.pixels[i]) / fullColour, -1.0f, 1.0f);
-        const auto code = [](float value) { return static_cast<std::uint8_t>(value * 255 + 0.5f); };
-        const std::uint8_t fading = code(1 - std::abs(d));
-        result.pixels.insert(result.pixels.end(),
-                             {d > 0 ? fading : code(1), fading, d < 0 ? fading : code(1)});
-    }
-    return result;
-}
-
 Image8 matchSheet(const std::string& title, const Image& reference,
                   const std::vector<MatchPictures>& techniques) {
     const int width = std::min(reference.width, widest);
@@ -52,9 +31,8 @@ Image8 matchSheet(const std::string& title, const Image& reference,
     for (const MatchPictures& technique : techniques) {
         page.text(margin, top + 4, escaped(technique.title), 14);
         int at = 0;
-        for (const Image8& image :
-             {greyPicture(reference), greyPicture(technique.raw), greyPicture(technique.matched),
-              differencePicture(technique.matched, reference)}) {
+        for (const Image8& image : {grey(reference), grey(technique.raw), grey(technique.matched),
+                                    signedError(technique.matched, reference, fullColour)}) {
             page.image(column(at), top + caption, shrunk(image, width, height));
             page.frame(column(at++), top + caption, width, height);
         }

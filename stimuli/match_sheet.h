@@ -12,11 +12,6 @@ struct MatchPictures {
     Image raw, matched;
 };
 
-// Visibility as grey code values, 3 channels.
-Image8 greyPicture(const Image& visibility);
-// Where an image is too dark (red) or too light (blue), full colour at a difference of 0.25.
-Image8 differencePicture(const Image& image, const Image& reference);
-
 // One test view on one page, a row for each technique: reference, raw, matched, and where the
 // matched one is too dark (red) or too light (blue), full colour at a difference of 0.25.
 Image8 matchSheet(const std::string& title, const Image& reference,

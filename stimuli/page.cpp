@@ -83,7 +83,26 @@ Image8 Page::finish() const {
     return page;
 }
 
-// Box-filtered on code values: a thumbnail to recognise, not to measure.
+Image8 grey(const Image& visibility) {
+    const Image8 code = quantised(visibility);
+    Image8 result{code.width, code.height, 3, {}};
+    for (const std::uint8_t value : code.pixels)
+        result.pixels.insert(result.pixels.end(), 3, value);
+    return result;
+}
+
+Image8 signedError(const Image& image, const Image& reference, float full) {
+    Image8 result{image.width, image.height, 3, {}};
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const float d = std::clamp((image.pixels[i] - reference.pixels[i]) / full, -1.0f, 1.0f);
+        const auto code = [](float value) { return static_cast<std::uint8_t>(value * 255 + 0.5f); };
+        const std::uint8_t fading = code(1 - std::abs(d));
+        result.pixels.insert(result.pixels.end(),
+                             {d > 0 ? fading : code(1), fading, d < 0 ? fading : code(1)});
+    }
+    return result;
+}
+
 Image8 shrunk(const Image8& from, int width, int height) {
     Image8 to{width, height, from.channels, {}};
     for (int y = 0; y < height; ++y)

@@ -26,6 +26,12 @@ class Page {
     std::unique_ptr<Canvas> canvas_;
 };
 
+// Visibility as code values, 3 channels.
+Image8 grey(const Image& visibility);
+// White where two images of visibility agree, red where the first is darker, blue where it is
+// lighter; full colour from a difference of `full`.
+Image8 signedError(const Image& image, const Image& reference, float full);
+
 // Box-filtered on code values: a thumbnail to recognise, not to measure.
 Image8 shrunk(const Image8& from, int width, int height);
 
