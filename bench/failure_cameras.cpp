@@ -1,9 +1,9 @@
 #include "bench/failure_scenes.h"
 #include "bench/failure_test.h"
+#include "bench/stored_depth.h"
 #include "bench/tile_pattern.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/packing.hpp>
 
 #include <algorithm>
 #include <array>
@@ -50,7 +50,7 @@ class CloseTest : public FailureTest {
                                     "wall time on this machine, read-back included"});
         return finding;
     }
-    const Image& truth() const override { return views_.back().truth(); }
+    const FailureView& view() const override { return views_.back(); }
 
   private:
     static constexpr double distances[] = {2, 0.8, 0.4, 0.2, 0.1};
@@ -60,67 +60,48 @@ class CloseTest : public FailureTest {
     std::vector<Selection> bands_;
 };
 
-// View depths as buffers of fewer bits return them.
-struct DepthFormat {
-    const char* name;
-    Probe::StoredDepth stored;
-};
-
-constexpr float nearPlane = 0.1f; // of the 24-bit buffer, whose far plane is infinitely far
-
-float halfFloat(float depth) { return glm::unpackHalf1x16(glm::packHalf1x16(depth)); }
-
-// The usual direction, 0 at the near plane; reversing it changes nothing with whole numbers.
-float fixedPoint24(float depth) {
-    constexpr double steps = (1 << 24) - 1, near = static_cast<double>(nearPlane);
-    const double stored = std::round((1 - near / static_cast<double>(depth)) * steps) / steps;
-    return static_cast<float>(near / (1 - std::min(stored, 1 - 0.5 / steps)));
-}
-
 class FarDepthTest : public FailureTest {
   public:
     explicit FarDepthTest(ImageSize size) : scene_(creaseScene()) {
-        const DepthFormat formats[] = {
-            {"32-bit", {}}, {"24-bit", fixedPoint24}, {"16-bit float", halfFloat}};
-        for (const DepthFormat& format : formats)
-            for (const double distance : {3, 10, 100, 1000}) {
-                views_.emplace_back(scene_, creaseCamera(distance, 3.6), size, format.stored);
-                places_.push_back({fmt::format("{} at {} R", format.name, distance),
+        const std::pair<const char*, Probe::StoredDepth> formats[] = {
+            {"32-bit", {}}, {"24-bit", fixedPointDepth}, {"16-bit float", halfFloatDepth}};
+        for (const auto& [name, stored] : formats)
+            for (const double distance : {5, 10, 100, 1000}) {
+                views_.emplace_back(scene_, creaseCamera(distance, 5.2), size, stored);
+                places_.push_back({fmt::format("{} at {} R", name, distance),
                                    creaseBand(views_.back(), 1.5f, 2.2f),
-                                   creaseBand(views_.back(), 0.15f, 0.5f)});
+                                   creaseBand(views_.back(), 0.15f, 0.5f), distance <= 100});
             }
     }
     Finding measure(const TestedTechnique& technique) const override {
-        Finding finding;
-        double sum = 0, nearest = 0, worst = -1;
-        std::string note;
-        std::vector<double> creases;
+        std::vector<Measured> measures;
+        Worst worst;
+        double nearPlane = 0, nearCrease = 0;
         for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Place& at = places_[i];
             const Image image = technique.visibility(views_[i].probe());
-            const double plane = meanOcclusion(image, places_[i].plane);
-            nearest = i == 0 ? plane : nearest;
-            creases.push_back(meanOcclusion(image, places_[i].crease));
-            finding.measures.push_back({"plane, " + places_[i].name, plane});
-            sum += std::abs(plane - nearest);
-            if (std::abs(plane - nearest) > worst) {
-                worst = std::abs(plane - nearest);
-                note = "worst: " + places_[i].name;
-                finding.picture = image;
-                finding.expected = views_[i].truth();
-            }
+            const double plane = meanOcclusion(image, at.plane);
+            const double crease = meanOcclusion(image, at.crease);
+            measures.push_back({"plane, " + at.name, plane});
+            measures.push_back({"crease, " + at.name, crease});
+            nearPlane = i == 0 ? plane : nearPlane;
+            nearCrease = i == 0 ? crease : nearCrease;
+            if (!at.counts)
+                continue;
+            worst.offer(plane - nearPlane, "plane, " + at.name, image, i);
+            worst.offer(crease - nearCrease, "crease, " + at.name, image, i);
         }
-        const double share = sum / static_cast<double>(places_.size() - 1);
-        finding.measures.insert(finding.measures.begin(),
-                                {"mean change of the plane's occlusion", share, note});
-        finding.measures.push_back({"crease, 32-bit, 1000 R against 3 R", creases[3] - creases[0]});
-        return finding;
+        measures.insert(measures.begin(),
+                        {"largest change of occlusion up to 100 R", worst.value, worst.where});
+        return {measures, worst.picture, views_[worst.index].truth()};
     }
-    const Image& truth() const override { return views_.front().truth(); }
+    const FailureView& view() const override { return views_.front(); }
 
   private:
     struct Place {
         std::string name;
         Selection plane, crease;
+        bool counts; // farther away fewer bits leave nothing of any scene
     };
     FailureScene scene_;
     std::deque<FailureView> views_;
@@ -129,43 +110,47 @@ class FarDepthTest : public FailureTest {
 
 class BandingTest : public FailureTest {
   public:
-    explicit BandingTest(ImageSize size)
-        : scene_(creaseScene()), view_(scene_, creaseCamera(6, 2.7), size) {
-        const double window = 0.2 * size.width;
-        patch_ = view_.select([=](const SeenPoint& point) {
-            return std::abs(static_cast<double>(point.pixelsAcross)) < window &&
-                   fromCrease(point) > 0.2f && fromCrease(point) < 0.8f;
-        });
+    explicit BandingTest(ImageSize size) : scene_(creaseScene()) {
+        const double window = 0.3 * size.width;
+        for (const Sight& sight : sights) {
+            const FailureView& view =
+                views_.emplace_back(scene_, creaseCamera(6, sight.height, sight.degrees), size);
+            patches_.push_back(view.select([=](const SeenPoint& point) {
+                return std::abs(static_cast<double>(point.pixelsAcross)) < window &&
+                       fromCrease(point) > 0.2f && fromCrease(point) < 0.8f;
+            }));
+        }
     }
     Finding measure(const TestedTechnique& technique) const override {
-        const Image image = technique.visibility(view_.probe());
-        const Image expected = withRowsLevelled(image, patch_);
-        Finding finding{{}, image, expected};
-        TilePattern strongest;
-        int tile = 0;
-        for (const int period : {3, 4}) {
-            const TilePattern pattern = tilePattern(image, expected, patch_, period);
-            finding.measures.push_back(
-                {fmt::format("share of energy, {} x {}", period, period), pattern.share});
-            if (pattern.amplitude > strongest.amplitude) {
-                strongest = pattern;
-                tile = period;
+        std::vector<Measured> measures;
+        Worst worst;
+        for (std::size_t i = 0; i < views_.size(); ++i) {
+            const Image image = technique.visibility(views_[i].probe());
+            const Image levelled = withRowsLevelled(image, patches_[i]);
+            for (const int period : {3, 4}) {
+                const TilePattern found = tilePattern(image, levelled, patches_[i], period);
+                const std::string name = fmt::format("{} x {}, {}", period, period, sights[i].name);
+                worst.offer(found.amplitude, name, image, i);
+                measures.push_back({"RMS, " + name, found.amplitude});
+                measures.push_back({"share of the grain's energy, " + name, found.share});
             }
         }
-        finding.measures.insert(
-            finding.measures.begin(),
-            {"RMS of the pattern of the noise tile", strongest.amplitude,
-             tile ? fmt::format("{} x {} pixels, {:.0f} % of the grain's energy", tile, tile,
-                                100 * strongest.share)
-                  : "no grain"});
-        return finding;
+        measures.insert(measures.begin(),
+                        {"RMS of the pattern of the noise tile", worst.value, worst.where});
+        return {measures, worst.picture, withRowsLevelled(worst.picture, patches_[worst.index])};
     }
-    const Image& truth() const override { return view_.truth(); }
+    const FailureView& view() const override { return views_.front(); }
 
   private:
+    struct Sight {
+        const char* name;
+        double height, degrees;
+    };
+    static constexpr Sight sights[] = {
+        {"close by", 2.7, 45}, {"farther", 10, 45}, {"floor at 80°", 2.7, 10}};
     FailureScene scene_;
-    FailureView view_;
-    Selection patch_;
+    std::deque<FailureView> views_;
+    std::vector<Selection> patches_;
 };
 
 const FailureTestRow rows[] = {
@@ -175,13 +160,15 @@ const FailureTestRow rows[] = {
       "change of occlusion in the crease on coming near", 0.05, 0.4},
      makeTest<CloseTest>},
     {{"far", "Far depth",
-      "A right angle through longer and longer lenses, 3 to 1000 radii away, with depth stored in "
-      "32, 24 and 16 bits: how the occlusion of its flat parts changes. Truth: not at all.",
-      "mean change of the plane's occlusion", 0.02, 0.25},
+      "A right angle through longer and longer lenses, 5 to 1000 radii away, with depth stored in "
+      "32, 24 and 16 bits: how the occlusion of its flat parts and of its crease changes. Truth: "
+      "not at all.",
+      "largest change of occlusion up to 100 R", 0.02, 0.25},
      makeTest<FarDepthTest>},
     {{"banding", "Tile banding",
       "Beside a crease occlusion is the same along the edge; what repeats with a tile of 3 or 4 "
-      "pixels there is the noise's, blur or not. Truth: none.",
+      "pixels there is the noise's, blur or not: close by, farther, and with the floor at a "
+      "grazing angle. Truth: none.",
       "RMS of the pattern of the noise tile", 0.004, 0.04},
      makeTest<BandingTest>},
 };

@@ -59,18 +59,17 @@ Scene boxScene() {
 
 Camera boxCamera() { return cameraAt({4.9, 4.4, 5.4}, {0, 0, 0}, 44); }
 
-Scene poleScene() {
+Scene poleScene(double distance) {
     Scene scene;
     addQuad(scene, {glm::vec3(-40, -40, 0), glm::vec3(40, -40, 0), glm::vec3(40, 40, 0),
                     glm::vec3(-40, 40, 0)});
-    const float half = poleWidth / 2;
-    addBox(scene, {-half, -30, poleDistance - half}, {half, 30, poleDistance + half});
+    const float half = poleWidth / 2, z = static_cast<float>(distance);
+    addBox(scene, {-half, -30, z - half}, {half, 30, z + half});
     return scene;
 }
 
-Camera poleCamera() {
-    const double z = static_cast<double>(poleDistance);
-    return cameraAt({0, 0, z + 6}, {0, 0, z}, 60);
+Camera poleCamera(double distance) {
+    return cameraAt({0, 0, distance + static_cast<double>(poleToCamera)}, {0, 0, distance}, 60);
 }
 
 Scene rodScene() {
@@ -109,13 +108,13 @@ Scene creaseScene() {
 double occlusionInCrease(double distance) {
     if (distance >= 1)
         return 0;
-    return (std::acos(distance) - distance * std::sqrt(1 - distance * distance)) /
-           std::numbers::pi;
+    return (std::acos(distance) - distance * std::sqrt(1 - distance * distance)) / std::numbers::pi;
 }
 
-Camera creaseCamera(double distance, double height) {
-    const double along = distance / std::numbers::sqrt2;
-    Camera camera = cameraAt({along, along, 0}, {0, 0, 0}, fieldOfView(height, distance));
+Camera creaseCamera(double distance, double height, double degrees) {
+    Camera camera =
+        cameraAt({distance * std::cos(radians(degrees)), distance * std::sin(radians(degrees)), 0},
+                 {0, 0, 0}, fieldOfView(height, distance));
     camera.near = std::min(0.1, distance / 100);
     return camera;
 }
@@ -128,8 +127,8 @@ Camera creaseCameraAlong(double degrees) {
 Scene hallScene(double scale) {
     Scene scene;
     addFloor(scene, {-6, -12}, {6, 6});
-    addQuad(scene, {glm::vec3(-6, 5, -12), glm::vec3(6, 5, -12), glm::vec3(6, 5, 6),
-                    glm::vec3(-6, 5, 6)});
+    addQuad(scene,
+            {glm::vec3(-6, 5, -12), glm::vec3(6, 5, -12), glm::vec3(6, 5, 6), glm::vec3(-6, 5, 6)});
     addQuad(scene, {glm::vec3(-6, 0, -12), glm::vec3(6, 0, -12), glm::vec3(6, 5, -12),
                     glm::vec3(-6, 5, -12)});
     addQuad(scene, {glm::vec3(-6, 0, 6), glm::vec3(-6, 0, -12), glm::vec3(-6, 5, -12),
@@ -148,7 +147,7 @@ Scene hallScene(double scale) {
                {2, 0.3f * static_cast<float>(step + 1), z});
     }
     addBox(scene, {-1.6f, 0.5f, -4.1f}, {0.2f, 0.65f, -3.3f});
-    for (const float x : {-1.5f, 0})
+    for (const float x : {-1.5f, 0.0f})
         addBox(scene, {x, 0, -3.9f}, {x + 0.12f, 0.5f, -3.5f});
     addBox(scene, {0.9f, 0, -1.2f}, {1.7f, 0.8f, -0.4f});
     for (Vertex& vertex : scene.vertices)
@@ -163,8 +162,8 @@ Camera hallCamera(double rollDegrees, double scale) {
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
     const glm::dvec3 up = std::cos(radians(rollDegrees)) * glm::cross(right, forward) +
                           std::sin(radians(rollDegrees)) * right;
-    Camera camera = cameraAt({position.x, position.y, position.z}, {target.x, target.y, target.z},
-                             60);
+    Camera camera =
+        cameraAt({position.x, position.y, position.z}, {target.x, target.y, target.z}, 60);
     camera.up = {up.x, up.y, up.z};
     camera.near *= scale;
     return camera;

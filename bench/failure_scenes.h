@@ -17,10 +17,10 @@ Camera floorCamera(double degrees, double distance);
 Scene boxScene();
 Camera boxCamera();
 
-// A pole along y, `poleWidth` wide, 10 radii before the wall z = 0, and a camera 6 before the pole.
-constexpr float poleWidth = 0.5f, poleDistance = 10;
-Scene poleScene();
-Camera poleCamera();
+// A pole along y, `poleWidth` wide, so far before the wall z = 0, and a camera 6 before the pole.
+constexpr float poleWidth = 0.5f, poleToCamera = 6;
+Scene poleScene(double distance);
+Camera poleCamera(double distance);
 
 // Rods of square section along x above the floor y = 0, which they leave free by `rodHeight`.
 struct Rod {
@@ -40,9 +40,9 @@ Camera curbCamera();
 // `occlusionInCrease` is the closed form at a distance from the edge (fact sheet, A.1-2).
 Scene creaseScene();
 double occlusionInCrease(double distance);
-// Sees the edge from the middle between floor and wall, across it; `height` radii of the plane
+// Sees the edge across it, from so many degrees above the floor; `height` radii of the plane
 // through the focus fill the image's height.
-Camera creaseCamera(double distance, double height);
+Camera creaseCamera(double distance, double height, double degrees = 45);
 // Looks along the edge at a point of the floor half a radius from the wall and 6 away, which it
 // sees at `degrees` from the floor's normal.
 Camera creaseCameraAlong(double degrees);

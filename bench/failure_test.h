@@ -4,6 +4,7 @@
 #include "bench/stability_cell.h"
 #include "bench/tested_technique.h"
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -20,7 +21,20 @@ struct Measured {
 // What a test finds about one technique.
 struct Finding {
     std::vector<Measured> measures; // the headline first
-    Image picture, expected;        // visibility where the technique does worst, and as it should be
+    Image picture, expected; // visibility where the technique does worst, and as it should be
+};
+
+// Whichever of a test's images is furthest from what it should be.
+struct Worst {
+    double value = 0;
+    std::string where = {};
+    Image picture = {};
+    std::size_t index = 0;
+
+    void offer(double found, const std::string& place, const Image& image, std::size_t at) {
+        if (picture.pixels.empty() || std::abs(found) > std::abs(value))
+            *this = {found, found == 0 ? "" : place, image, at};
+    }
 };
 
 // A failure test whose scenes are built and drawn, for techniques to take one after the other.
@@ -28,8 +42,8 @@ class FailureTest {
   public:
     virtual ~FailureTest() = default;
     virtual Finding measure(const TestedTechnique& technique) const = 0;
-    // What the test's pictures are to be compared with: ray tracing.
-    virtual const Image& truth() const = 0;
+    // One that shows what the test is about.
+    virtual const FailureView& view() const = 0;
 };
 
 struct FailureTestRow {

@@ -69,6 +69,15 @@ const Image& FailureView::truth() const {
     return *truth_;
 }
 
+Image FailureView::lit() const {
+    const Surfaces& surfaces = probe_.surfaces();
+    Image image{surfaces.width, surfaces.height, 1, {}};
+    for (const SeenPoint& point : points_)
+        image.pixels.push_back(
+            point.shown ? srgbFromLinear(0.8f * std::cos(glm::radians(point.degrees))) : 1);
+    return image;
+}
+
 double meanOcclusion(const Image& visibility, const Selection& selection) {
     const Image open{visibility.width, visibility.height, 1,
                      std::vector<float>(visibility.pixels.size(), 1.0f)};

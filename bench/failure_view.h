@@ -46,6 +46,8 @@ class FailureView {
     double radiusPixels() const;
     // Visibility by ray tracing with a radius of 1 m; traced when first asked for.
     const Image& truth() const;
+    // The scene as a lamp at the camera shows it, to be recognised by.
+    Image lit() const;
 
   private:
     const FailureScene& scene_;

@@ -32,22 +32,26 @@ std::string pictureName(std::string_view test, const std::string& configuration)
     return name;
 }
 
-// Visibility, and beside it what is wrong with it.
-Image8 pictureOf(const Finding& finding, double fullColour) {
+Image8 sideBySide(const Image8& left, const Image8& right) {
     constexpr int gap = 4;
-    const int width = finding.picture.width, height = finding.picture.height;
-    Page page(2 * width + gap, height);
-    page.image(0, 0, grey(finding.picture));
-    page.image(width + gap, 0,
-               signedError(finding.picture, finding.expected, static_cast<float>(fullColour)));
+    Page page(left.width + gap + right.width, left.height);
+    page.image(0, 0, left);
+    page.image(left.width + gap, 0, right);
     return page.finish();
 }
 
-StabilityCell truthCell(const FailureTestRow& row, const FailureTest& test, const fs::path& folder) {
+// Visibility, and what is wrong with it.
+Image8 pictureOf(const Finding& finding, double fullColour) {
+    return sideBySide(grey(finding.picture), signedError(finding.picture, finding.expected,
+                                                         static_cast<float>(fullColour)));
+}
+
+// Visibility by ray tracing, and what is seen.
+StabilityCell truthCell(const FailureTestRow& row, const FailureTest& test,
+                        const fs::path& folder) {
     const std::string picture = pictureName(row.about.id, truthName);
-    writePng(folder / picture, grey(test.truth()));
-    return {truthName, "", std::string(row.about.id), std::string(row.about.measure), 0, picture,
-            "ray tracing"};
+    writePng(folder / picture, sideBySide(grey(test.view().truth()), grey(test.view().lit())));
+    return {truthName, "", std::string(row.about.id), std::string(row.about.measure), 0, picture};
 }
 
 std::vector<StabilityCell> cellsOf(const FailureTestRow& row, const FailureTest& test,
@@ -55,10 +59,9 @@ std::vector<StabilityCell> cellsOf(const FailureTestRow& row, const FailureTest&
     const Finding finding = test.measure(technique);
     std::vector<StabilityCell> cells;
     for (const Measured& measured : finding.measures)
-        cells.push_back({technique.configuration(),
-                         std::string(technique.settings().technique().id),
-                         std::string(row.about.id), measured.measure, measured.value, "",
-                         measured.note});
+        cells.push_back(
+            {technique.configuration(), std::string(technique.settings().technique().id),
+             std::string(row.about.id), measured.measure, measured.value, "", measured.note});
     cells.front().picture = pictureName(row.about.id, technique.configuration());
     writePng(folder / cells.front().picture, pictureOf(finding, row.about.fail));
     return cells;

@@ -7,15 +7,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace obscura {
 
 namespace {
 
-constexpr const char* header = "configuration,technique,test,measure,value,pass,picture,note";
-constexpr std::size_t columns = 8;
+const std::vector<std::string>& columns() {
+    static const std::vector<std::string> names{"configuration", "technique", "test",    "measure",
+                                                "value",         "pass",      "picture", "note"};
+    return names;
+}
 
 std::string passCell(std::span<const StabilityTest> tests, const StabilityCell& cell) {
     for (const StabilityTest& test : tests)
@@ -24,19 +26,22 @@ std::string passCell(std::span<const StabilityTest> tests, const StabilityCell& 
     return "";
 }
 
-double numberIn(const std::string& cell, const Place& place) {
+StabilityCell cellOf(const CsvRecord& record, const std::string& file) {
+    const Place place{file, record.line, 0, {}};
+    if (const std::string fault = faultOf(record, columns().size()); !fault.empty())
+        throw Error(place, fault);
+    const std::vector<std::string>& cells = record.cells;
     double value = 0;
-    const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    if (fault != std::errc() || end != cell.data() + cell.size())
-        throw Error(place, fmt::format("expected a number, found \"{}\"", cell));
-    return value;
+    if (!readCell(cells[4], value))
+        throw Error(place, fmt::format("expected a number, found \"{}\"", cells[4]));
+    return {cells[0], cells[1], cells[2], cells[3], value, cells[6], cells[7]};
 }
 
 } // namespace
 
 std::string stabilityCsv(std::span<const StabilityTest> tests,
                          const std::vector<StabilityCell>& cells) {
-    std::string csv = fmt::format("{}\n", header);
+    std::string csv = fmt::format("{}\n", fmt::join(columns(), ","));
     for (const StabilityCell& cell : cells)
         csv += fmt::format("{},{},{},{},{:.6g},{},{},{}\n", csvCell(cell.configuration),
                            csvCell(cell.technique), csvCell(cell.test), csvCell(cell.measure),
@@ -47,19 +52,12 @@ std::string stabilityCsv(std::span<const StabilityTest> tests,
 
 std::vector<StabilityCell> readStabilityCsv(const std::filesystem::path& path) {
     const std::vector<CsvRecord> records = splitCsv(readFile(path));
+    if (records.empty())
+        throw Error({path.string(), 0, 0, {}}, "expected a header line, found an empty file");
+    checkHeader(records.front(), columns(), path.string());
     std::vector<StabilityCell> cells;
-    for (const CsvRecord& record : records) {
-        const Place place{path.string(), record.line, 0, {}};
-        if (!record.fault.empty() || record.cells.size() != columns)
-            throw Error(place, fmt::format("expected {} cells: {}", columns, header));
-        if (&record == &records.front()) {
-            if (fmt::format("{}", fmt::join(record.cells, ",")) != header)
-                throw Error(place, fmt::format("expected the header {}", header));
-            continue;
-        }
-        cells.push_back({record.cells[0], record.cells[1], record.cells[2], record.cells[3],
-                         numberIn(record.cells[4], place), record.cells[6], record.cells[7]});
-    }
+    for (const CsvRecord& record : std::span(records).subspan(1))
+        cells.push_back(cellOf(record, path.string()));
     return cells;
 }
 

@@ -18,8 +18,8 @@ double numberIn(const std::string& word, const std::string& configuration) {
     double value = 0;
     const auto [end, fault] = std::from_chars(&word[at], word.data() + word.size(), value);
     if (at == 0 || fault != std::errc() || end != word.data() + word.size())
-        throw Error(fmt::format("expected setting=number, found \"{}\" in \"{}\"", word,
-                                configuration));
+        throw Error(
+            fmt::format("expected setting=number, found \"{}\" in \"{}\"", word, configuration));
     return value;
 }
 

@@ -1,0 +1,14 @@
+#pragma once
+
+namespace obscura {
+
+// View depths (metres) as a buffer of fewer bits returns them: Probe::StoredDepth.
+
+// 11 significant bits.
+float halfFloatDepth(float depth);
+
+// The z-buffer's depth, 0 at a near plane of 0.1 m and 1 infinitely far away, in 24 bits. Reversing
+// it changes nothing with whole numbers.
+float fixedPointDepth(float depth);
+
+} // namespace obscura
