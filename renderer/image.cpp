@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -64,18 +65,30 @@ ImageType read(OIIO::ImageInput* input, const std::string& name, int channels) {
     return image;
 }
 
-void write(const std::filesystem::path& path, OIIO::ImageSpec spec, OIIO::TypeDesc type,
-           const void* pixels) {
+// Several images, all as `spec` says, become the frames of one file.
+bool writeAll(OIIO::ImageOutput& output, const std::string& name, const OIIO::ImageSpec& spec,
+              OIIO::TypeDesc type, std::span<const void* const> images) {
+    const std::vector<OIIO::ImageSpec> specs(images.size(), spec);
+    if (images.size() == 1 ? !output.open(name, spec)
+                           : !output.open(name, static_cast<int>(specs.size()), specs.data()))
+        return false;
+    for (std::size_t i = 0; i < images.size(); ++i)
+        if ((i > 0 && !output.open(name, spec, OIIO::ImageOutput::AppendSubimage)) ||
+            !output.write_image(type, images[i]))
+            return false;
+    return output.close();
+}
+
+void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+           std::span<const void* const> images) {
     const std::filesystem::path unfinished = unfinishedPath(path);
-    const auto fail = [&](const std::string& reason) {
+    const auto output = OIIO::ImageOutput::create(unfinished.string());
+    if (!output || !writeAll(*output, unfinished.string(), spec, type, images)) {
         std::error_code ignored;
         std::filesystem::remove(unfinished, ignored);
-        throw Error({path.string(), 0, 0, {}}, "cannot be written: " + reason);
-    };
-    auto output = OIIO::ImageOutput::create(unfinished.string());
-    if (!output || !output->open(unfinished.string(), spec) || !output->write_image(type, pixels) ||
-        !output->close())
-        fail(output ? output->geterror() : OIIO::geterror());
+        throw Error({path.string(), 0, 0, {}},
+                    "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
+    }
     publish(unfinished, path);
 }
 
@@ -157,7 +170,7 @@ void writePng(const std::filesystem::path& path, const Image8& image) {
     spec.attribute("oiio:ColorSpace", "sRGB");
     // Level 4 halves the time of the default 6 for a file a few percent larger.
     spec.attribute("png:compressionLevel", 4);
-    write(path, spec, OIIO::TypeDesc::UINT8, image.pixels.data());
+    write(path, spec, OIIO::TypeDesc::UINT8, std::array<const void*, 1>{image.pixels.data()});
 }
 
 void writeExr(const std::filesystem::path& path, const Image& image,
@@ -170,7 +183,21 @@ void writeExr(const std::filesystem::path& path, const Image& image,
     // Else OpenImageIO writes the time of day, and no two files are alike.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
     spec.attribute("oiio:ColorSpace", "Linear");
-    write(path, spec, OIIO::TypeDesc::FLOAT, image.pixels.data());
+    write(path, spec, OIIO::TypeDesc::FLOAT, std::array<const void*, 1>{image.pixels.data()});
+}
+
+void writeGif(const std::filesystem::path& path, std::span<const Image8> frames,
+              int framesPerSecond) {
+    assert(!frames.empty() && frames[0].channels == 3);
+    OIIO::ImageSpec spec(frames[0].width, frames[0].height, 3, OIIO::TypeDesc::UINT8);
+    const int rate[] = {framesPerSecond, 1};
+    spec.attribute(
+        "FramesPerSecond",
+        OIIO::TypeDesc(OIIO::TypeDesc::INT, OIIO::TypeDesc::VEC2, OIIO::TypeDesc::RATIONAL), rate);
+    std::vector<const void*> images;
+    for (const Image8& frame : frames)
+        images.push_back(frame.pixels.data());
+    write(path, spec, OIIO::TypeDesc::UINT8, images);
 }
 
 Difference compare(const Image& first, const Image& second, double threshold) {

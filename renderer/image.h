@@ -63,6 +63,12 @@ void writePng(const std::filesystem::path& path, const Image8& image);
 void writeExr(const std::filesystem::path& path, const Image& image,
               std::span<const std::string> channelNames, bool depth32 = false);
 
+// An animated GIF that repeats for ever, from frames of one size with 3 channels. Greys keep their
+// code values to within 1; a frame of more than 255 colours gets the nearest. Players count in
+// hundredths of a second. Written aside, then renamed.
+void writeGif(const std::filesystem::path& path, std::span<const Image8> frames,
+              int framesPerSecond);
+
 // How two images of one size differ, over all channels.
 struct Difference {
     double rms = 0;     // root mean square

@@ -2,6 +2,7 @@
 #include "protocols/files.h"
 #include "renderer/image.h"
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -42,6 +43,30 @@ TEST(ImageFiles, PngHasTheSameBytesEachTime) {
     writePng(file("first.png"), image);
     writePng(file("second.png"), image);
     EXPECT_EQ(readFile(file("first.png")), readFile(file("second.png")));
+}
+
+// Bars that move: every grey, in another place in each frame.
+TEST(ImageFiles, GifKeepsGreysFramesAndRate) {
+    std::vector<Image8> frames(3, Image8{256, 2, 3, {}});
+    for (int frame = 0; frame < 3; ++frame)
+        for (int i = 0; i < 256 * 2 * 3; ++i)
+            frames[static_cast<std::size_t>(frame)].pixels.push_back(
+                static_cast<std::uint8_t>(i / 3 + 40 * frame));
+    writeGif(file("bars.gif"), frames, 20);
+    const auto input = OIIO::ImageInput::open(file("bars.gif").string());
+    ASSERT_TRUE(input);
+    for (int frame = 0; frame < 3; ++frame) {
+        ASSERT_TRUE(input->seek_subimage(frame, 0));
+        const OIIO::ImageSpec& spec = input->spec();
+        const int* rate = static_cast<const int*>(spec.find_attribute("FramesPerSecond")->data());
+        EXPECT_EQ(rate[0], 20 * rate[1]);
+        ASSERT_EQ(spec.width, 256);
+        std::vector<std::uint8_t> read(static_cast<std::size_t>(256 * 2 * 3));
+        ASSERT_TRUE(input->read_image(frame, 0, 0, 3, OIIO::TypeDesc::UINT8, read.data()));
+        for (std::size_t i = 0; i < read.size(); ++i)
+            ASSERT_NEAR(read[i], frames[static_cast<std::size_t>(frame)].pixels[i], 1) << i;
+    }
+    EXPECT_FALSE(input->seek_subimage(3, 0));
 }
 
 TEST(ImageFiles, ExrKeepsFloats) {
