@@ -127,11 +127,13 @@ RayPackets::Group RayPackets::group(int index) const {
     for (int scrambling = 0; scrambling < 2; ++scrambling) {
         const std::uint64_t seed =
             mixed(mixed(settings_.seed) + static_cast<std::uint64_t>(scrambling));
-        const std::uint64_t shared = mixed(seed ^ mixed(~static_cast<std::uint64_t>(index)));
+        const std::uint64_t shared = settings_.sameRays
+                                         ? mixed(seed)
+                                         : mixed(seed ^ mixed(~static_cast<std::uint64_t>(index)));
         group.leading[scrambling][0] = static_cast<std::uint32_t>(shared);
         group.leading[scrambling][1] = static_cast<std::uint32_t>(shared >> 32);
         for (std::size_t lane = 0; lane < packetSize; ++lane) {
-            const std::uint64_t own = mixed(seed ^ mixed(first + lane));
+            const std::uint64_t own = settings_.sameRays ? seed : mixed(seed ^ mixed(first + lane));
             group.digits[scrambling][0][lane] = static_cast<std::uint32_t>(own);
             group.digits[scrambling][1][lane] = static_cast<std::uint32_t>(own >> 32);
         }

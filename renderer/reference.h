@@ -31,6 +31,10 @@ struct TraceSettings {
     int rays = 256;      // per pixel; rounded up to a power of two, at least 2
     std::uint64_t seed = 1;
     int threads = 0; // 0: all cores. The result does not depend on it
+    // The rays of all pixels leave their normals in the same directions. Errors are then no noise
+    // but a pattern on the surfaces, which a moving camera leaves where it is; they may be alike in
+    // many pixels, so `error` says nothing about means.
+    bool sameRays = false;
 };
 
 // Rows from top to bottom; empty pixels are open.

@@ -62,11 +62,12 @@ std::string referenceKey(const ReferenceInputs& inputs) {
     const auto rays = std::bit_ceil(static_cast<unsigned>(std::max(settings.rays, 2)));
     const std::string text = fmt::format(
         "reference\nscene {}\ncamera {} / {} / {} / {:a} / {:a}\nsize {} x {} jitter {:a} "
-        "{:a}\nnormals {}\nintegral {} radius {:a} rays {} seed {}\nby {} {}\n{}",
+        "{:a}\nnormals {}\nintegral {} radius {:a} rays {} seed {} same {}\nby {} {}\n{}",
         inputs.sceneSha256, spelt(camera.position), spelt(camera.target), spelt(camera.up),
         camera.fovDegrees, camera.near, inputs.width, inputs.height, inputs.jitter.x,
         inputs.jitter.y, static_cast<int>(inputs.normals), static_cast<int>(settings.integral),
-        settings.radius, rays, settings.seed, version(), rayTracerVersion(), shaders());
+        settings.radius, rays, settings.seed, settings.sameRays, version(), rayTracerVersion(),
+        shaders());
     return sha256(text);
 }
 

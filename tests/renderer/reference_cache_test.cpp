@@ -97,10 +97,11 @@ TEST_F(ReferenceCache, KeysDifferWithEverything) {
     key([](ReferenceInputs& i) { i.settings.radius *= 2; });
     key([](ReferenceInputs& i) { i.settings.rays *= 2; });
     key([](ReferenceInputs& i) { i.settings.seed += 1; });
-    EXPECT_EQ(keys.size(), 15);
+    key([](ReferenceInputs& i) { i.settings.sameRays = true; });
+    EXPECT_EQ(keys.size(), 16);
     key([](ReferenceInputs& i) { i.settings.threads = 1; });
     key([](ReferenceInputs& i) { i.settings.rays -= 1; }); // rounded up
-    EXPECT_EQ(keys.size(), 15);
+    EXPECT_EQ(keys.size(), 16);
 }
 
 } // namespace

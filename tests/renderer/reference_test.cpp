@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <string>
 
 namespace obscura {
@@ -226,6 +227,26 @@ TEST(Reference, DoesNotDependOnThreads) {
         EXPECT_TRUE(traced(1, 1) == traced(7, 1));
         EXPECT_FALSE(traced(1, 1) == traced(1, 2));
     }
+}
+
+// The same point everywhere: the same rays find the same there, and as much as other rays do.
+TEST(Reference, SameRaysAgreeWhereOthersAreNoise) {
+    const Build scene = corner(0.5, far, far);
+    const Surfaces surfaces = originSurfaces(scene, 40);
+    const RayTracer tracer(scene);
+    double sum = 0;
+    constexpr int seeds = 40;
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        TraceSettings settings{Integral::cosine, 1, 64, seed};
+        settings.sameRays = true;
+        const std::vector<float> same = tracer.trace(surfaces, settings).visibility.pixels;
+        EXPECT_EQ(same, std::vector<float>(same.size(), same[0]));
+        sum += static_cast<double>(same[0]);
+        settings.sameRays = false;
+        const std::vector<float> own = tracer.trace(surfaces, settings).visibility.pixels;
+        EXPECT_GT(std::set<float>(own.begin(), own.end()).size(), 3);
+    }
+    EXPECT_NEAR(sum / seeds, 1 - segment(0.5), 0.01); // one seed is off by 0.02 or so
 }
 
 TEST(Reference, EmptyPixelsAreOpen) {
