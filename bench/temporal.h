@@ -1,0 +1,56 @@
+#pragma once
+
+#include "bench/shots.h"
+#include "bench/stability_cell.h"
+
+#include <filesystem>
+#include <functional>
+
+namespace obscura {
+
+// Steadiness from frame to frame: one test per camera path (temporal_tests.h), measured as in
+// temporal_measures.h. Noise is used as in a game without temporal filtering: it keeps to its
+// pixels while the camera moves. Only in the test "still" does its seed change with every frame.
+//
+// The headline is reference-relative change, motion-compensated. Its plain form, pixel by pixel, is
+// given too, but tells bias from truth and not flicker: `none` lies in the midst of all techniques,
+// because a constant picture lacks the truth's change at every edge that passes a pixel.
+//
+// The truth is traced with rays that are the same for all pixels and frames, so that their error
+// sticks to the surfaces. What is left of it can be read from a configuration of `ray_traced`,
+// which has other rays, as many as its settings say; what is left of fetching bilinearly, from
+// `none`: its unreal change is the truth's warped change. No technique can be told from perfect
+// below those.
+
+// How much is drawn.
+struct TemporalEffort {
+    int width, height;
+    int frames; // of each test, at least 3
+    int rays;   // per pixel of the truth
+    std::vector<std::string> tests;
+};
+TemporalEffort fullTemporalEffort();
+TemporalEffort quickTemporalEffort(); // smaller, fewer frames and rays, and two paths
+
+struct TemporalStudy {
+    const Scene& scene;
+    Camera start;
+    double radius; // metres; of the truth, and what the configurations have
+    std::vector<NamedSettings> configurations;
+    TemporalEffort effort;
+    std::filesystem::path folder; // pictures/ in it takes the pictures
+};
+
+struct TemporalResult {
+    std::vector<StabilityCell> cells;
+    std::string animation; // GIF in the folder (temporal_animation.h); "" when there is none
+};
+
+// Told the share done, 0 ... 1, and the test at hand.
+using TemporalProgress = std::function<void(double, const std::string&)>;
+
+// A GL context must be current. Fewer frames than 3, an unknown test or a file that cannot be
+// written is an Error.
+TemporalResult measureTemporal(const TemporalStudy& study, const TemporalProgress& progress = {});
+
+} // namespace obscura

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "bench/temporal.h"
+#include "bench/temporal_tests.h"
+
+namespace obscura {
+
+// A test with a moving camera, as measured.
+struct MotionRecord {
+    const TemporalTest* test;
+    std::vector<Image> truths;        // by frame
+    std::vector<double> unreal;       // mean, of each configuration
+    std::vector<double> truthfulness; // occlusion shown, of the truth's: above 1, too dark
+};
+
+// Writes the worst flicker as an animated GIF, and below it the best on the same path: visibility,
+// the truth, and unreal change (temporal_measures.h). Only techniques that show half of the truth's
+// occlusion or more are considered: what shows nothing is steady. Gives the file's name in the
+// study's folder, or "" with fewer than two such techniques.
+std::string writeAnimation(const TemporalStudy& study, const Shots& shots, std::uint64_t noiseSeed,
+                           std::span<const MotionRecord> records);
+
+} // namespace obscura
