@@ -50,8 +50,7 @@ std::vector<Command> stabilityCommands(CLI::App& app) {
         ->check(CLI::Range(72, 2160))
         ->capture_default_str();
     command->add_flag("--quick", options->quick, "smaller images: 108 lines");
-    command->add_flag("--page", options->pageOnly,
-                      "only make the page anew from the folder's CSV");
+    command->add_flag("--page", options->pageOnly, "only make the page anew from the folder's CSV");
     command->add_option("--device", options->device, "as obscura-render --devices lists it");
     return {{command, [options] { return run(*options); }}};
 }

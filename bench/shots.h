@@ -1,9 +1,8 @@
 #pragma once
 
+#include "bench/temporal_measures.h"
 #include "renderer/probe.h"
 #include "renderer/reference.h"
-
-#include "bench/temporal_measures.h"
 
 #include <span>
 #include <string>
@@ -41,7 +40,7 @@ class Shots {
     RayTracer tracer_;
     std::span<const NamedSettings> configurations_;
     int width_, height_;
-    std::vector<OcclusionPasses> passes_; // of each configuration
+    mutable std::vector<OcclusionPasses> passes_; // of each configuration
 };
 
 // Both with truth.

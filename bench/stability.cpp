@@ -32,14 +32,6 @@ std::string pictureName(std::string_view test, const std::string& configuration)
     return name;
 }
 
-Image8 sideBySide(const Image8& left, const Image8& right) {
-    constexpr int gap = 4;
-    Page page(left.width + gap + right.width, left.height);
-    page.image(0, 0, left);
-    page.image(left.width + gap, 0, right);
-    return page.finish();
-}
-
 // Visibility, and what is wrong with it.
 Image8 pictureOf(const Finding& finding, double fullColour) {
     return sideBySide(grey(finding.picture), signedError(finding.picture, finding.expected,

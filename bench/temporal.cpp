@@ -1,9 +1,9 @@
 #include "bench/temporal.h"
 
-#include "protocols/error.h"
-
 #include "bench/temporal_animation.h"
 #include "bench/temporal_pictures.h"
+#include "protocols/error.h"
+
 #include <fmt/format.h>
 
 #include <array>

@@ -1,6 +1,7 @@
 #include "bench/temporal_animation.h"
 
 #include "bench/temporal_pictures.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

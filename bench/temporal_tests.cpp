@@ -1,8 +1,8 @@
 #include "bench/temporal_tests.h"
 
+#include "bench/camera_path.h"
 #include "protocols/error.h"
 
-#include "bench/camera_path.h"
 #include <fmt/format.h>
 
 #include <vector>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "protocols/protocol.h"
-
 #include "bench/stability_cell.h"
+#include "protocols/protocol.h"
 
 #include <span>
 

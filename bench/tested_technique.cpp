@@ -58,7 +58,7 @@ TestedTechnique TestedTechnique::scaled(double factor) const {
     return result;
 }
 
-const OcclusionPasses& TestedTechnique::passes(const Probe& probe, int beyond) const {
+OcclusionPasses& TestedTechnique::passes(const Probe& probe, int beyond) const {
     const Surfaces& surfaces = probe.surfaces();
     const int border = 2 * (guardPixels(settings_, surfaces.height) + beyond);
     const std::pair size(surfaces.width + border, surfaces.height + border);

@@ -27,7 +27,7 @@ class TestedTechnique {
     double seconds(const Probe& probe, int runs) const;
 
   private:
-    const OcclusionPasses& passes(const Probe& probe, int beyond) const;
+    OcclusionPasses& passes(const Probe& probe, int beyond) const;
 
     std::string configuration_;
     Settings settings_;

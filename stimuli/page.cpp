@@ -122,13 +122,11 @@ Image8 shrunk(const Image8& from, int width, int height) {
 }
 
 Image8 sideBySide(const Image8& left, const Image8& right) {
-    Image8 both{left.width + right.width, left.height, left.channels, {}};
-    for (int y = 0; y < left.height; ++y)
-        for (const Image8* image : {&left, &right}) {
-            const auto row = image->pixels.begin() + y * image->width * image->channels;
-            both.pixels.insert(both.pixels.end(), row, row + image->width * image->channels);
-        }
-    return both;
+    constexpr int gap = 4;
+    Page page(left.width + gap + right.width, left.height);
+    page.image(0, 0, left);
+    page.image(left.width + gap, 0, right);
+    return page.finish();
 }
 
 std::string escaped(const std::string& text) {

@@ -35,7 +35,7 @@ Image8 signedError(const Image& image, const Image& reference, float full);
 // Box-filtered on code values: a thumbnail to recognise, not to measure.
 Image8 shrunk(const Image8& from, int width, int height);
 
-Image8 sideBySide(const Image8& left, const Image8& right); // of one height
+Image8 sideBySide(const Image8& left, const Image8& right); // of one height, with a gap
 
 // Text that stands for itself in markup.
 std::string escaped(const std::string& text);
