@@ -14,50 +14,14 @@ namespace obscura {
 
 namespace {
 
-// The policy lets the page load nothing at all from elsewhere.
-constexpr std::string_view head = R"(<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8"/>
-<meta name="viewport" content="width=device-width"/>
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; img-src data:; style-src 'unsafe-inline'"/>
-<title>{}</title>
-<style>
-body {{ font: 16px/1.5 system-ui, sans-serif; color: #1a1a1a; background: white; max-width: 66rem;
-       margin: 2rem auto; padding: 0 1rem; }}
-h1 {{ font-size: 1.7rem; line-height: 1.25; margin-bottom: 0; }}
-h2 {{ font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }}
-.stamp {{ background: #B33A00; color: white; font-size: 1.15rem; font-weight: bold;
-         padding: .6rem 1rem; margin: 1rem 0; }}
-.aside {{ color: #555; font-size: .88rem; }}
-figure {{ margin: 1rem 0; }}
-figure svg, figure img {{ width: 100%; height: auto; }}
-.wide {{ overflow-x: auto; }}
-table {{ border-collapse: collapse; font-size: .88rem; }}
-th, td {{ padding: .25rem .5rem; text-align: left; vertical-align: top; }}
-thead th {{ border-bottom: 2px solid #555; }}
-tbody th {{ font-weight: 600; white-space: nowrap; }}
-tbody tr {{ border-bottom: 1px solid #ddd; }}
-.number {{ text-align: right; white-space: nowrap; font-variant-numeric: tabular-nums; }}
-.differs td {{ background: #DCEBF5; }}
-.hash {{ font-family: monospace; overflow-wrap: anywhere; }}
-@media print {{
-  body {{ font-size: 10pt; margin: 0; max-width: none; }}
-  .wide {{ overflow: visible; }}
-  table, .aside {{ font-size: 7.5pt; }}
-  th, td {{ padding: 2pt 3.5pt; }}
-  figure, tr {{ break-inside: avoid; }}
-  h2 {{ break-after: avoid; }}
-  .stamp, .differs td {{ print-color-adjust: exact; -webkit-print-color-adjust: exact; }}
-}}
-</style>
-</head>
-<body>
+constexpr std::string_view style =
+    R"(.stamp { background: #B33A00; color: white; font-size: 1.15rem;
+         font-weight: bold; padding: .6rem 1rem; margin: 1rem 0; }
+figure svg, figure img { width: 100%; height: auto; }
+.differs td { background: #DCEBF5; }
+.hash { font-family: monospace; overflow-wrap: anywhere; }
+@media print { .stamp, .differs td { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )";
-
-std::string element(std::string_view name, const std::string& text) {
-    return fmt::format("<{0}>{1}</{0}>\n", name, escaped(text));
-}
 
 std::string paragraphs(const Findings& findings) {
     std::string text;
@@ -178,7 +142,7 @@ std::string howItWasRun(const Findings& findings) {
 std::string reportHtml(const Findings& findings) {
     const std::string stamp = stampOf(findings);
     const std::string mark = stamp.empty() ? "" : fmt::format("[{}] ", sourceOf(findings));
-    std::string html = fmt::format(head, escaped(mark + findings.title));
+    std::string html = pageHead(mark + findings.title, style);
     html += element("h1", findings.title);
     if (!stamp.empty())
         html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(stamp));

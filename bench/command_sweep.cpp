@@ -96,6 +96,21 @@ class Reporting {
     std::optional<Progress> line_;
 };
 
+// The Pareto front of each scene and size, matched RMSE against milliseconds.
+std::string frontText(const Sweep& sweep) {
+    std::string text;
+    const ErrorMeasure& measure = errorMeasures().front();
+    for (const SweepGroup& group : groupsOf(sweep.rows)) {
+        text += fmt::format("{} {}x{}, {}: the front\n", group.scene, group.width, group.height,
+                            measure.name);
+        for (const std::size_t i : paretoFront(paretoPoints(group, measure)))
+            text += fmt::format("  {:<34} {:>9.3g} ms  {:6.3f} x starcraft 16  {:.4f}\n",
+                                group.points[i].configuration, group.points[i].total.median,
+                                group.points[i].toStarcraft, measure.of(group.points[i]));
+    }
+    return text;
+}
+
 int runSweep(const StudyOptions& options) {
     SweepStudy study = readSweepStudy(options.study);
     adjust(study, options);

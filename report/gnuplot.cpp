@@ -78,22 +78,29 @@ std::string literal(const std::string& text) {
     return result;
 }
 
-} // namespace
-
-std::string gnuplotSvg(const std::string& script, const std::string& title) {
+// What it prints, from `mark` on.
+std::string printed(const std::string& script, std::string_view mark) {
     const Scratch in = scratch(script), out = scratch(), errors = scratch();
     const char* const command[] = {"gnuplot", "-d", "-", nullptr}; // -d: no settings of the user's
     const int status = run(command, in, out, errors);
-    std::string svg = contentOf(out);
-    const std::size_t begin = svg.find("<svg");
-    if (status != 0 || begin == svg.npos)
+    std::string content = contentOf(out);
+    const std::size_t begin = content.find(mark);
+    if (status != 0 || begin == content.npos)
         throw Error(fmt::format("gnuplot failed (status {}): {}", status, contentOf(errors)));
-    svg.erase(0, begin);
+    return content.substr(begin);
+}
+
+} // namespace
+
+std::string gnuplotSvg(const std::string& script, const std::string& title) {
+    std::string svg = printed(script, "<svg");
     constexpr std::string_view itsTitle = "<title>Gnuplot</title>";
     if (const std::size_t at = svg.find(itsTitle); at != svg.npos)
         svg.replace(at, itsTitle.size(), fmt::format("<title>{}</title>", escaped(title)));
     return svg;
 }
+
+std::string gnuplotPdf(const std::string& script) { return printed(script, "%PDF"); }
 
 std::string gnuplotText(const std::string& text) { return fmt::format("'{}'", literal(text)); }
 

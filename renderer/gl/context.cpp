@@ -111,13 +111,19 @@ void storeMessage(GLenum, GLenum, GLuint, GLenum, GLsizei length, const GLchar* 
 
 } // namespace
 
+bool isSoftware(const std::string& renderer) {
+    for (const char* name : {"llvmpipe", "softpipe", "SwiftShader"})
+        if (renderer.find(name) != std::string::npos)
+            return true;
+    return false;
+}
+
 Driver currentDriver() {
     const auto text = [](GLenum name) {
         return std::string(reinterpret_cast<const char*>(glGetString(name)));
     };
     Driver driver{text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION), false};
-    for (const char* name : {"llvmpipe", "softpipe", "SwiftShader"})
-        driver.software |= driver.renderer.find(name) != std::string::npos;
+    driver.software = isSoftware(driver.renderer);
     return driver;
 }
 

@@ -9,8 +9,12 @@ namespace obscura::gl {
 // What the driver calls itself; part of every recipe.
 struct Driver {
     std::string vendor, renderer, version;
-    bool software = false; // llvmpipe or another CPU rasteriser: its timer queries are not honest
+    bool software = false;
 };
+
+// Whether that is llvmpipe or another rasteriser of the CPU: its timer queries are not honest, and
+// its ratios of costs are not a GPU's.
+bool isSoftware(const std::string& renderer);
 
 // One way to an OpenGL 4.5 core context without a window.
 struct Device {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "bench/sweep_row.h"
+
+#include <filesystem>
+
+namespace obscura {
+
+// A sweep as a folder: sweep.csv and growth.csv, a line for each row, sweep.json, the machine, and
+// the thumbnails that rows name. Columns are in the order of the structures; times are in
+// milliseconds and say so; an empty cell is NaN. What is read back equals what was written.
+
+std::string sweepCsv(const std::vector<SweepRow>& rows);
+std::string growthCsv(const std::vector<GrowthRow>& rows);
+
+// Thumbnails are the writer's own business.
+void writeSweep(const std::filesystem::path& folder, const Sweep& sweep);
+
+// An Error names file, line and column.
+Sweep readSweep(const std::filesystem::path& folder);
+
+// Writes the parts of one study as one sweep, with their thumbnails, into a folder of its own. An
+// Error says what was measured twice and where, or in what the parts' studies, programs, methods or
+// machines differ; only clocks and dates may, and all of them are listed.
+Sweep mergeSweeps(const std::vector<std::filesystem::path>& parts,
+                  const std::filesystem::path& folder);
+
+} // namespace obscura

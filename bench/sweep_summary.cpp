@@ -1,0 +1,195 @@
+#include "bench/sweep_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <set>
+#include <sstream>
+
+namespace obscura {
+
+namespace {
+
+using Rows = std::span<const SweepRow>;
+using Of = std::function<double(const SweepRow&)>;
+
+std::vector<double> valuesOf(Rows rows, const Of& of) {
+    std::vector<double> values;
+    std::transform(rows.begin(), rows.end(), std::back_inserter(values), of);
+    return values;
+}
+
+double mean(Rows rows, const Of& of) {
+    double sum = 0;
+    for (const double value : valuesOf(rows, of))
+        sum += value;
+    return sum / static_cast<double>(rows.size());
+}
+
+double median(Rows rows, const Of& of) {
+    std::vector<double> values = valuesOf(rows, of);
+    if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
+        return std::numeric_limits<double>::quiet_NaN();
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+PictureError errorOf(Rows rows, PictureError SweepRow::*error) {
+    const auto squared = [&](const SweepRow& row) { return std::pow((row.*error).rmse, 2); };
+    return {std::sqrt(mean(rows, squared)),
+            mean(rows, [&](const SweepRow& row) { return (row.*error).bias; }),
+            mean(rows, [&](const SweepRow& row) { return (row.*error).ssim; }),
+            mean(rows, [&](const SweepRow& row) { return (row.*error).flip; })};
+}
+
+std::set<std::string> viewsOf(Rows rows) {
+    std::set<std::string> views;
+    for (const SweepRow& row : rows)
+        views.insert(row.view);
+    return views;
+}
+
+std::string joined(const std::set<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names)
+        text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+// Rows of one configuration made neighbours.
+void addPoints(std::vector<SweepRow> rows, SweepGroup& group) {
+    std::stable_sort(rows.begin(), rows.end(), [](const SweepRow& a, const SweepRow& b) {
+        return a.configuration < b.configuration;
+    });
+    for (auto begin = rows.begin(); begin != rows.end();) {
+        const auto end = std::find_if(begin, rows.end(), [&](const SweepRow& row) {
+            return row.configuration != begin->configuration;
+        });
+        group.points.push_back(overViews({begin, end}));
+        begin = end;
+    }
+    std::stable_sort(group.points.begin(), group.points.end(),
+                     [](const SweepRow& a, const SweepRow& b) {
+                         return std::isnan(b.total.median) ? !std::isnan(a.total.median)
+                                                           : a.total.median < b.total.median;
+                     });
+}
+
+constexpr const char* full = "full";
+constexpr const char* depth = "depth buffer";
+
+} // namespace
+
+SweepRow overViews(Rows rows) {
+    const auto medianOf = [&](double SweepRow::*field) {
+        return median(rows, [&](const SweepRow& row) { return row.*field; });
+    };
+    SweepRow point = rows.front();
+    point.view = joined(viewsOf(rows));
+    point.frames = 0;
+    for (const SweepRow& row : rows)
+        point.frames += row.frames;
+    for (double Milliseconds::*part :
+         {&Milliseconds::median, &Milliseconds::low, &Milliseconds::high})
+        point.total.*part = median(rows, [&](const SweepRow& row) { return row.total.*part; });
+    for (std::size_t i = 0; i < point.work.size(); ++i)
+        point.work[i] = median(rows, [&](const SweepRow& row) { return row.work[i]; });
+    for (double SweepRow::*field : {&SweepRow::gbuffer, &SweepRow::toGbuffer,
+                                    &SweepRow::toStarcraft, &SweepRow::bytes, &SweepRow::fetches})
+        point.*field = medianOf(field);
+    for (PictureError SweepRow::*error :
+         {&SweepRow::raw, &SweepRow::matched, &SweepRow::depthRaw, &SweepRow::depthMatched,
+          &SweepRow::litRaw, &SweepRow::litMatched})
+        point.*error = errorOf(rows, error);
+    return point;
+}
+
+std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows) {
+    std::vector<std::string> scenes;
+    std::map<std::pair<std::string, std::pair<int, int>>, std::vector<SweepRow>> byGroup;
+    for (const SweepRow& row : rows) {
+        if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end())
+            scenes.push_back(row.scene);
+        byGroup[{row.scene, {row.width, row.height}}].push_back(row);
+    }
+    std::vector<SweepGroup> groups;
+    for (const std::string& scene : scenes)
+        for (const auto& [key, members] : byGroup)
+            if (key.first == scene) {
+                groups.push_back({scene, key.second.first, key.second.second, {}});
+                addPoints(members, groups.back());
+            }
+    return groups;
+}
+
+std::vector<std::string> lackingViews(const SweepGroup& group) {
+    const auto most = std::max_element(
+        group.points.begin(), group.points.end(),
+        [](const SweepRow& a, const SweepRow& b) { return a.view.size() < b.view.size(); });
+    std::vector<std::string> names;
+    for (const SweepRow& point : group.points)
+        if (point.view != most->view)
+            names.push_back(point.configuration);
+    return names;
+}
+
+std::span<const ErrorMeasure> errorMeasures() {
+    using R = SweepRow;
+    static const ErrorMeasure measures[] = {
+        {"RMSE, matched", full, [](const R& row) { return row.matched.rmse; }, true},
+        {"RMSE, raw", full, [](const R& row) { return row.raw.rmse; }},
+        {"bias, raw", full, [](const R& row) { return std::abs(row.raw.bias); }},
+        {"1 − SSIM, matched", full, [](const R& row) { return 1 - row.matched.ssim; }},
+        {"FLIP, matched", full, [](const R& row) { return row.matched.flip; }, true},
+        {"FLIP of the lit image, matched", full, [](const R& row) { return row.litMatched.flip; }},
+        {"RMSE, matched", depth, [](const R& row) { return row.depthMatched.rmse; }},
+        {"RMSE, raw", depth, [](const R& row) { return row.depthRaw.rmse; }},
+        {"bias, raw", depth, [](const R& row) { return std::abs(row.depthRaw.bias); }},
+        {"1 − SSIM, matched", depth, [](const R& row) { return 1 - row.depthMatched.ssim; }},
+        {"FLIP, matched", depth, [](const R& row) { return row.depthMatched.flip; }},
+    };
+    return measures;
+}
+
+std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasure& measure) {
+    std::vector<ParetoPoint> points;
+    for (const SweepRow& row : group.points)
+        points.push_back({row.total.median, measure.of(row), row.configuration});
+    return points;
+}
+
+std::vector<std::string> techniquesOf(const std::vector<SweepRow>& rows) {
+    std::set<std::string> names;
+    for (const SweepRow& row : rows)
+        names.insert(row.technique);
+    return {names.begin(), names.end()};
+}
+
+std::size_t indexOf(const std::vector<std::string>& techniques, const std::string& technique) {
+    return static_cast<std::size_t>(std::find(techniques.begin(), techniques.end(), technique) -
+                                    techniques.begin());
+}
+
+std::map<std::string, std::size_t> techniquesByConfiguration(const Sweep& sweep) {
+    const std::vector<std::string> techniques = techniquesOf(sweep.rows);
+    std::map<std::string, std::size_t> places;
+    for (const GrowthRow& row : sweep.growth) // configurations begin with their technique
+        places[row.configuration] =
+            indexOf(techniques, row.configuration.substr(0, row.configuration.find(' ')));
+    for (const SweepRow& row : sweep.rows)
+        places[row.configuration] = indexOf(techniques, row.technique);
+    return places;
+}
+
+std::map<std::string, std::string> settingsIn(const std::string& settings) {
+    std::map<std::string, std::string> values;
+    std::istringstream words(settings);
+    for (std::string word; words >> word;)
+        if (const std::size_t at = word.find('='); at != word.npos)
+            values[word.substr(0, at)] = word.substr(at + 1);
+    return values;
+}
+
+} // namespace obscura

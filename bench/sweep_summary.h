@@ -1,0 +1,54 @@
+#pragma once
+
+#include "bench/pareto.h"
+#include "bench/sweep_row.h"
+
+#include <map>
+#include <span>
+
+namespace obscura {
+
+// What charts and tables show of a sweep.
+
+// One configuration at one scene and resolution, all views taken together: of times, fetches, bytes
+// and ratios the median over views (so the percentiles are those of the frames of a typical view);
+// of RMSE the root of the mean square, of other errors the mean; NaN as soon as one view has none;
+// frames are summed, `view` lists the names, text and thumbnail are the first view's.
+SweepRow overViews(std::span<const SweepRow> rows);
+
+// The configurations of one scene and resolution, by rising milliseconds.
+struct SweepGroup {
+    std::string scene;
+    int width = 0, height = 0;
+    std::vector<SweepRow> points;
+};
+// In the order in which scenes first appear; of a scene, the smallest picture first.
+std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows);
+
+// Points of the group that lack views which others have: their medians are of other pictures.
+std::vector<std::string> lackingViews(const SweepGroup& group);
+
+// An error that charts can show; less is better.
+struct ErrorMeasure {
+    std::string name;      // "RMSE, matched"
+    std::string reference; // "full" or "depth buffer"
+    double (*of)(const SweepRow&);
+    bool always = false; // tables show it beside any other
+};
+std::span<const ErrorMeasure> errorMeasures(); // the first is the default
+
+std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasure& measure);
+
+// Ids in alphabetical order: what colours and marks are given out by.
+std::vector<std::string> techniquesOf(const std::vector<SweepRow>& rows);
+
+std::size_t indexOf(const std::vector<std::string>& techniques, const std::string& technique);
+
+// Where the technique of each configuration, also of those that only grew, stands among
+// techniquesOf(); their number for one that is not there.
+std::map<std::string, std::size_t> techniquesByConfiguration(const Sweep& sweep);
+
+// "samples=8 blur=1" as names and values.
+std::map<std::string, std::string> settingsIn(const std::string& settings);
+
+} // namespace obscura
