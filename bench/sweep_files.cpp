@@ -3,6 +3,7 @@
 #include "protocols/csv.h"
 #include "protocols/error.h"
 #include "protocols/files.h"
+#include "renderer/technique.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

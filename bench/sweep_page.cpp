@@ -6,6 +6,7 @@
 #include "bench/sweep_page_tables.h"
 #include "protocols/files.h"
 #include "renderer/gl/context.h"
+#include "renderer/technique.h"
 #include "report/html.h"
 
 #include <fmt/format.h>

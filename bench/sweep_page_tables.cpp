@@ -1,6 +1,7 @@
 #include "bench/sweep_page_tables.h"
 
 #include "bench/scatter.h"
+#include "renderer/technique.h"
 #include "report/html.h"
 #include "report/number.h"
 
