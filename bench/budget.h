@@ -19,6 +19,7 @@ struct Budget {
     std::optional<double> litFlip;      // of the lit image
     std::optional<double> flicker;      // 99th percentile of reference-relative change
     std::optional<double> milliseconds; // in 95 of 100 frames, on the dearest view
+    std::vector<std::string> failures;  // ids of failure tests (stability.h) that must pass
 
     bool limitsErrors() const { return rmse || flip || litFlip; }
 };

@@ -1,5 +1,6 @@
 #include "bench/choose.h"
 
+#include "bench/steadiness.h"
 #include "bench/timing.h"
 #include "stimuli/match.h"
 #include "stimuli/match_files.h"
@@ -44,6 +45,7 @@ class Stages {
         }
         return *known;
     }
+    const Scene& scene(std::size_t i) { return stageOf(study_.match.test[i]).scene; }
     std::size_t count() const { return study_.match.test.size(); }
     double secondsForReferences() const { return references_; }
 
@@ -86,6 +88,7 @@ class Choosing {
     void glance();
     void measure(Candidate& candidate);
     bool confirm(Candidate& candidate);
+    std::string unsteadiness(const Candidate& candidate);
     std::map<std::string, MatchedTechnique> fits(const MatchStudy& study,
                                                  const std::string& folder);
     std::vector<double> milliseconds(std::size_t view, const std::vector<Settings>& settings,
@@ -221,7 +224,26 @@ bool Choosing::confirm(Candidate& candidate) {
         candidate.milliseconds = std::max(candidate.milliseconds, candidate.views[i].milliseconds);
     }
     candidate.verdict = excess(budget_, candidate.views);
+    if (candidate.verdict.empty())
+        candidate.verdict = unsteadiness(candidate);
     return candidate.verdict.empty();
+}
+
+std::string Choosing::unsteadiness(const Candidate& candidate) {
+    const View& view = stages_.view(0).view();
+    const Settings settings = settingsAt(candidate.configuration, view.radius, true);
+    const std::string& name = candidate.configuration.setting.name;
+    if (budget_.flicker) {
+        tell("flicker of " + name);
+        const double flicker =
+            flickerOf(stages_.scene(0), view, settings, plan_.folder / "flicker");
+        if (flicker > *budget_.flicker)
+            return fmt::format("flicker {:.3f}, budget {:.3f}", flicker, *budget_.flicker);
+    }
+    if (budget_.failures.empty())
+        return "";
+    tell("failure tests of " + name);
+    return failuresOf(settings, budget_.failures, plan_.folder / "failures");
 }
 
 Choice Choosing::run() {

@@ -45,6 +45,8 @@ std::string limitsOf(const Budget& budget) {
     add("FLIP of the lit image", budget.litFlip);
     add("flicker", budget.flicker);
     add("milliseconds", budget.milliseconds);
+    for (const std::string& test : budget.failures)
+        text += (text.empty() ? "no failure of " : ", no failure of ") + test;
     return text;
 }
 

@@ -54,9 +54,12 @@ std::vector<ImageSize> sizesOf(const std::vector<std::string>& texts) {
     return sizes;
 }
 
-void adjust(SweepStudy& study, const StudyOptions& options) {
+// Choosing looks at few techniques closely, so it can afford more views to be sure.
+constexpr std::size_t quickSweepViews = 1, quickChooseViews = 4;
+
+void adjust(SweepStudy& study, const StudyOptions& options, std::size_t quickViews) {
     if (options.quick)
-        study = quick(std::move(study));
+        study = quick(std::move(study), quickViews);
     if (!options.sizes.empty())
         study.sizes = sizesOf(options.sizes);
     if (options.seconds >= 0)
@@ -113,7 +116,7 @@ std::string frontText(const Sweep& sweep) {
 
 int runSweep(const StudyOptions& options) {
     SweepStudy study = readSweepStudy(options.study);
-    adjust(study, options);
+    adjust(study, options, quickSweepViews);
     const fs::path folder =
         options.out.empty() ? fs::path("sweep-" + study.match.name) : options.out;
     const gl::Context context(options.device);
@@ -140,7 +143,7 @@ struct ChooseOptions {
     std::string scene;
     double radius = 0;
     int cameras = 8;
-    std::vector<std::string> limits;
+    std::vector<std::string> limits, failures;
 };
 
 // The study's own views, or cameras that see the scene, half of them to fit on.
@@ -167,11 +170,12 @@ SweepStudy studyOf(const ChooseOptions& options, const Folders& folders) {
 }
 
 int runChoose(const ChooseOptions& options) {
-    const Budget budget = budgetOf(options.limits);
+    Budget budget = budgetOf(options.limits);
+    budget.failures = options.failures;
     const Folders folders{options.study.scenes, options.study.study.parent_path()};
     const gl::Context context(options.study.device);
     SweepStudy study = studyOf(options, folders);
-    adjust(study, options.study);
+    adjust(study, options.study, quickChooseViews);
     study.sizes.resize(1);
     const fs::path folder =
         options.study.out.empty() ? fs::path("choose-" + study.match.name) : options.study.out;
@@ -235,6 +239,8 @@ std::vector<Command> sweepCommands(CLI::App& app) {
         ->add_option("--limit", options->limits,
                      "rmse, flip, litFlip, flicker or ms = NUMBER; may be repeated")
         ->required();
+    choosing->add_option("--must-pass", options->failures,
+                         "a test of obscura-bench stability that must not fail; may be repeated");
     addStudyOptions(*choosing, study);
 
     return {{sweeping, [options] { return runSweep(options->study); }},

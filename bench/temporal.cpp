@@ -147,7 +147,7 @@ class Measurement {
         addCell(i, test, test.test.measure, record.unreal.back(), picture,
                 fmt::format("shows {:.0f} % of the truth's occlusion",
                             100 * record.truthfulness.back()));
-        addCell(i, test, "unreal change, 99th percentile", error.unreal().percentile(0.99));
+        addCell(i, test, unrealChange99, error.unreal().percentile(0.99));
         addCell(i, test, "unreal change pixel by pixel, mean", error.unrealAtPixels().mean());
         addCell(i, test, "unreal change pixel by pixel, 99th percentile",
                 error.unrealAtPixels().percentile(0.99));

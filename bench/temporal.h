@@ -41,6 +41,9 @@ struct TemporalStudy {
     std::filesystem::path folder; // pictures/ in it takes the pictures
 };
 
+// The name of the 99th percentile of the headline among the cells' measures.
+inline constexpr std::string_view unrealChange99 = "unreal change, 99th percentile";
+
 struct TemporalResult {
     std::vector<StabilityCell> cells;
     std::string animation; // GIF in the folder (temporal_animation.h); "" when there is none

@@ -93,9 +93,9 @@ SweepStudy readSweepStudy(const std::filesystem::path& path) {
     return parseSweepStudy(readFile(path), path.string());
 }
 
-SweepStudy quick(SweepStudy study) {
+SweepStudy quick(SweepStudy study, std::size_t testViews) {
     study.match.train.resize(1);
-    study.match.test.resize(1);
+    study.match.test.resize(std::min(study.match.test.size(), testViews));
     study.match.rays = std::min(study.match.rays, 64);
     study.match.training = study.match.image = {160, 90};
     study.sizes = {{320, 180}};

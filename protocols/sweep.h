@@ -31,9 +31,9 @@ struct SweepStudy {
 SweepStudy parseSweepStudy(const std::string& text, const std::string& file);
 SweepStudy readSweepStudy(const std::filesystem::path& path);
 
-// The same in a few minutes: one training and one test view at the first radius and a small size,
-// few rays, little timing. For a first look, not for figures.
-SweepStudy quick(SweepStudy study);
+// The same in a few minutes: one training view and the first few test views at a small size, few
+// rays, little timing. For a first look, not for figures.
+SweepStudy quick(SweepStudy study, std::size_t testViews);
 
 // The name of the technique that a configuration varies: up to the first space.
 std::string variedName(const std::string& configuration);

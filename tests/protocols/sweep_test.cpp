@@ -75,7 +75,7 @@ TEST(SweepStudy, ListsMakeEveryCombination) {
 }
 
 TEST(SweepStudy, QuickKeepsEveryConfiguration) {
-    const SweepStudy full = parseSweepStudy(text, "small.toml"), few = quick(full);
+    const SweepStudy full = parseSweepStudy(text, "small.toml"), few = quick(full, 1);
     EXPECT_EQ(few.match.techniques.size(), full.match.techniques.size());
     EXPECT_EQ(few.sizes.size(), 1u);
     EXPECT_EQ(few.match.test.size(), 1u);

@@ -1,0 +1,179 @@
+#include "bench/choose.h"
+#include "bench/sweep_files.h"
+#include "bench/timing.h"
+#include "bench/viewpoints.h"
+#include "protocols/error.h"
+#include "protocols/files.h"
+#include "renderer/builtin.h"
+#include "renderer/gl/context.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string text = R"(name = "small"
+seed = 7
+reference = "cosine"
+rays = 32
+radii = [0.2]
+train = ["front"]
+test = ["left", "right"]
+sizes = [[64, 36]]
+frames = 3
+seconds = 0.01
+[light]
+sky = {}
+[scenes.front]
+builtin = "sculpture"
+camera = { position = [0.8, 0.9, 1.75], target = [0, 0.57, 0], fovDegrees = 38 }
+[scenes.left]
+builtin = "sculpture"
+camera = { position = [-1.1, 0.8, 1.4], target = [0, 0.55, 0], fovDegrees = 38 }
+[scenes.right]
+builtin = "sculpture"
+camera = { position = [1.3, 0.8, 1.2], target = [0, 0.55, 0], fovDegrees = 38 }
+[techniques]
+none = { technique = "none" }
+starcraft = { technique = "starcraft", samples = [8, 64], blur = 0 }
+gtao = { technique = "gtao", preset = "ultra" }
+)";
+
+class SweepTest : public testing::Test {
+  protected:
+    SweepTest() { fs::remove_all(folder_); }
+    ~SweepTest() override { fs::remove_all(folder_); }
+
+    Sweep run(const std::string& part = "1/1") {
+        SweepPlan plan{folder_ / part.substr(0, 1), folder_ / "cache"};
+        plan.part = part[0] - '0';
+        plan.parts = part[2] - '0';
+        return sweep(study_, {}, plan, context_.driver(),
+                     [&](double, double, const std::string&) { ++reports_; });
+    }
+
+    const fs::path folder_ = fs::temp_directory_path() / "obscura-sweep-test";
+    const gl::Context context_;
+    const SweepStudy study_ = parseSweepStudy(text, "small.toml");
+    int reports_ = 0;
+};
+
+const SweepRow& rowOf(const Sweep& sweep, const std::string& configuration) {
+    for (const SweepRow& row : sweep.rows)
+        if (row.configuration == configuration)
+            return row;
+    throw Error("no row of " + configuration);
+}
+
+TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
+    const Sweep first = run();
+    ASSERT_EQ(first.rows.size(), 8u); // 4 configurations, 2 views
+    const SweepRow &none = rowOf(first, "none"), &gtao = rowOf(first, "gtao"),
+                   &many = rowOf(first, "starcraft samples=64");
+    // Nothing costs nothing, and is off by the truth's own occlusion everywhere.
+    EXPECT_EQ(none.total.median, 0);
+    EXPECT_EQ(none.fetches, 0);
+    EXPECT_LT(none.raw.bias, 0);
+    EXPECT_EQ(none.raw.rmse, none.matched.rmse);
+    EXPECT_LT(gtao.matched.rmse, none.matched.rmse);
+    EXPECT_LE(many.matched.rmse, many.raw.rmse + 0.02); // fitted, though on another view
+    EXPECT_GT(many.total.median, 0);
+    EXPECT_NEAR(many.toGbuffer, many.total.median / many.gbuffer, 1e-9);
+    EXPECT_LT(gtao.litMatched.rmse, gtao.matched.rmse); // half of the light is not occluded so much
+    for (const char* file : {"sweep.csv", "sweep.json", "sweep.html"})
+        EXPECT_TRUE(fs::exists(folder_ / "1" / file)) << file;
+    EXPECT_TRUE(fs::exists(folder_ / "1" / gtao.thumbnail));
+
+    // What has been measured is not measured again: times stay what they were.
+    const Sweep again = run();
+    for (const SweepRow& row : first.rows)
+        EXPECT_EQ(rowOf(again, row.configuration).total.median,
+                  rowOf(first, row.configuration).total.median);
+
+    // The race gives the answer that measuring everything gives.
+    const double least = rowOf(first, "gtao").matched.rmse;
+    Budget loose, strict, impossible;
+    loose.rmse = 1;
+    impossible.rmse = 0.1 * least;
+    const SweepPlan plan{folder_ / "choice", folder_ / "cache"};
+    const auto chosen = [&](const Budget& budget) {
+        const Choice choice = choose(study_, budget, {}, plan, context_.driver(),
+                                     [](double, double, const std::string&) {});
+        return choice.chosen ? choice.candidates[*choice.chosen].configuration.setting.name : "";
+    };
+    EXPECT_EQ(chosen(loose), "none");
+    EXPECT_EQ(chosenFrom(first, loose), "none");
+    EXPECT_EQ(chosen(impossible), "");
+    EXPECT_EQ(chosenFrom(first, impossible), "");
+}
+
+TEST_F(SweepTest, PartsMakeTheWhole) {
+    const Sweep odd = run("1/2"), even = run("2/2");
+    EXPECT_EQ(odd.rows.size() + even.rows.size(), 8u);
+    const Sweep whole = mergeSweeps({folder_ / "1", folder_ / "2"}, folder_ / "whole");
+    EXPECT_EQ(whole.rows.size(), 8u);
+}
+
+TEST_F(SweepTest, ReferencesOfHoursAreRefusedFirst) {
+    SweepPlan plan{folder_, folder_ / "cache"};
+    plan.hours = 1e-9;
+    try {
+        sweep(study_, {}, plan, context_.driver(), [](double, double, const std::string&) {});
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("allow it by --hours"));
+    }
+    EXPECT_FALSE(fs::exists(folder_ / "sweep.csv"));
+}
+
+TEST(Timing, NamesPassesAndTheirWork) {
+    const gl::Context context;
+    const Subject subject(builtinScene("sculpture"));
+    Camera camera;
+    camera.position = {0.8, 0.9, 1.75};
+    camera.target = {0, 0.57, 0};
+    const Probe probe(subject, camera, 64, 36, Normals::smooth, 1);
+    Settings half(technique("starcraft"));
+    half.set("downscale", 2);
+    TimingPlan plan;
+    plan.frames = 3;
+    plan.seconds = 0.01;
+    const TechniqueTime time =
+        timeTechniques(probe, std::vector{half, Settings(technique("none"))}, 0.2, plan).front();
+    std::vector<std::string> names;
+    double sum = 0;
+    for (const PassTime& pass : time.passes) {
+        names.push_back(pass.name);
+        sum += pass.median;
+    }
+    EXPECT_THAT(names, testing::ElementsAre("reduce", "gather", "blurTile", "upsample"));
+    EXPECT_GE(time.frames, 3);
+    EXPECT_NEAR(sum, time.total.median, 0.5 * time.total.median);
+    EXPECT_LE(time.total.low, time.total.median);
+}
+
+TEST(Viewpoints, SeeTheSceneAndAreTheSameEachTime) {
+    const gl::Context context;
+    View like;
+    like.builtin = "sculpture";
+    like.radius = 0.2;
+    const std::vector<View> views = viewpoints(like, {}, 4, 1), again = viewpoints(like, {}, 4, 1);
+    ASSERT_EQ(views.size(), 4u);
+    const Subject subject(builtinScene("sculpture"));
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        EXPECT_EQ(views[i].camera.position, again[i].camera.position);
+        const Probe probe(subject, views[i].camera, 32, 18, Normals::smooth, 1);
+        const auto shown = std::count(probe.shown().begin(), probe.shown().end(), true);
+        EXPECT_GT(shown, 32 * 18 / 5) << views[i].name;
+        for (std::size_t j = 0; j < i; ++j)
+            EXPECT_NE(views[i].camera.position, views[j].camera.position);
+    }
+}
+
+} // namespace
+} // namespace obscura
