@@ -118,10 +118,11 @@ function show(link) {
   const section = link.closest('section'), address = link.getAttribute('href');
   section.querySelectorAll('.on').forEach(old => old.classList.remove('on'));
   section.querySelectorAll('text.name').forEach(old => { old.textContent = ''; });
-  section.querySelectorAll('a[href="' + address + '"]').forEach(same => {
+  for (const same of section.querySelectorAll('a')) {
+    if (same.getAttribute('href') !== address) continue;
     same.classList.add('on');
     if (same.ownerSVGElement) nameBeside(same);
-  });
+  }
   document.querySelector(address).classList.add('on');
 }
 
@@ -142,7 +143,7 @@ for (const svg of all('.chart figure svg'))
       const mark = nearest(svg, event);
       if (mark) show(mark);
     });
-for (const link of all('a[href^="#p"]')) {
+for (const link of all('section.points a')) {
   link.addEventListener('focus', () => show(link));
   if (!link.ownerSVGElement) link.addEventListener('pointerenter', () => show(link));
   link.addEventListener('click', event => {

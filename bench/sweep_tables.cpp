@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <set>
 
 namespace obscura {
 
@@ -66,22 +67,16 @@ AblationTable::Column emptyColumn(const SweepGroup& group) {
     return column;
 }
 
-// The tables that a scene's cells call for: their settings and kinds of culling.
-std::vector<std::pair<std::string, std::string>> tablesIn(const std::vector<Cell>& cells) {
-    std::vector<std::pair<std::string, std::string>> tables;
-    for (const Cell& cell : cells) {
-        const std::pair table(cell.settings, cell.culling);
-        const bool known = std::find(tables.begin(), tables.end(), table) != tables.end();
-        if (cell.variant != 0 && !known)
-            tables.push_back(table);
-    }
-    // Adaptive alone is a table only where nothing was culled.
-    std::erase_if(tables, [&](const auto& table) {
-        return table.second.empty() &&
-               std::any_of(tables.begin(), tables.end(), [&](const auto& other) {
-                   return other.first == table.first && !other.second.empty();
-               });
-    });
+// The tables that a scene's cells call for: their settings and kinds of culling. Adaptive alone is
+// a table only where nothing was culled.
+std::set<std::pair<std::string, std::string>> tablesIn(const std::vector<Cell>& cells) {
+    std::set<std::pair<std::string, std::string>> tables;
+    for (const Cell& cell : cells)
+        if (cell.variant != 0)
+            tables.emplace(cell.settings, cell.culling);
+    for (const Cell& cell : cells)
+        if (!cell.culling.empty())
+            tables.erase({cell.settings, ""});
     return tables;
 }
 

@@ -2,6 +2,8 @@
 
 #include "protocols/files.h"
 #include "protocols/manifest.h"
+#include "tests/error_of.h"
+#include "tests/folder.h"
 #include "tests/protocols/sample_response.h"
 
 #include <gtest/gtest.h>
@@ -12,27 +14,6 @@
 #include <vector>
 
 namespace obscura::test {
-
-// A folder of the running test's own, gone after it.
-class Folder {
-  public:
-    Folder() {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        path_ = std::filesystem::temp_directory_path() /
-                fmt::format("obscura-{}-{}-{}", test->test_suite_name(), test->name(), ::getpid());
-        std::filesystem::remove_all(path_);
-        std::filesystem::create_directories(path_);
-    }
-    ~Folder() { std::filesystem::remove_all(path_); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 inline std::filesystem::path writeRows(const std::filesystem::path& file,
                                        const std::vector<Response>& rows) {
@@ -93,18 +74,6 @@ inline std::filesystem::path writeStimuli(const std::filesystem::path& folder) {
     manifest.contactSheet = {"contact_sheet.png", sha256(picture)};
     writeManifest(folder / "manifest.json", manifest);
     return folder;
-}
-
-// What `run` throws.
-template <typename Run>
-std::string errorOf(Run run) {
-    try {
-        run();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << "nothing was thrown";
-    return {};
 }
 
 } // namespace obscura::test

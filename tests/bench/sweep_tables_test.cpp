@@ -1,0 +1,137 @@
+#include "bench/sweep_tables.h"
+#include "renderer/settings.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace obscura {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+SweepRow vaoRow(const std::string& settings, double milliseconds, int width = 1920) {
+    SweepRow row;
+    row.configuration = "vao_plus_plus " + settings;
+    row.technique = "vao_plus_plus";
+    row.settings = settings;
+    row.scene = "sponza";
+    row.view = "nave";
+    row.width = width;
+    row.height = width * 9 / 16;
+    row.total.median = milliseconds;
+    return row;
+}
+
+std::string settingsOf(int samples, int adaptive, int culling, const std::string& rest = "blur=1") {
+    return fmt::format("samples={} radius=0.5 adaptive={} culling={} {}", samples, adaptive,
+                       culling, rest);
+}
+
+// The paper's own numbers as rows give the paper's table.
+TEST(Ablation, TellsTheVariantsApart) {
+    const AblationTable& paper = publishedAblation();
+    std::vector<SweepRow> rows;
+    for (std::size_t c = 0; c < 2; ++c)
+        for (std::size_t s = 0; s < 5; ++s)
+            for (int v = 0; v < 4; ++v)
+                rows.push_back(vaoRow(settingsOf(ablationSamples[s], v & 1, v & 2),
+                                      paper.columns[c].milliseconds[s][static_cast<std::size_t>(v)],
+                                      c ? 3840 : 1920));
+    const auto tables = ablationTables(groupsOf(rows));
+    ASSERT_THAT(tables, SizeIs(1));
+    EXPECT_EQ(tables[0].scene, "sponza");
+    EXPECT_EQ(tables[0].settings, "blur=1 radius=0.5; culling=2 where it is on");
+    ASSERT_THAT(tables[0].columns, SizeIs(2));
+    for (std::size_t c = 0; c < 2; ++c) {
+        EXPECT_EQ(tables[0].columns[c].title, paper.columns[c].title);
+        EXPECT_EQ(tables[0].columns[c].milliseconds, paper.columns[c].milliseconds);
+    }
+}
+
+// Ratios that the paper prints beside its milliseconds, in per cent; both are rounded.
+TEST(Ablation, HoldsThePapersTable) {
+    const double printed[2][5][3] = {
+        {{115, 135, 143}, {99, 111, 110}, {83, 89, 78}, {70, 76, 59}, {61, 67, 46}},
+        {{114, 133, 141}, {96, 106, 104}, {80, 84, 72}, {65, 68, 52}, {58, 61, 41}}};
+    for (std::size_t c = 0; c < 2; ++c)
+        for (std::size_t s = 0; s < 5; ++s)
+            for (std::size_t v = 0; v < 3; ++v) {
+                const auto& line = publishedAblation().columns[c].milliseconds[s];
+                EXPECT_NEAR(100 * line[v + 1] / line[0], printed[c][s][v], 1.0);
+            }
+}
+
+TEST(Ablation, ComparesOnlyWhatIsOtherwiseEqual) {
+    const auto tables = ablationTables(groupsOf({
+        vaoRow(settingsOf(8, 0, 0), 4),
+        vaoRow(settingsOf(8, 1, 0), 3),
+        vaoRow(settingsOf(8, 0, 1), 2),
+        vaoRow(settingsOf(8, 0, 2), 1),
+        vaoRow(settingsOf(8, 1, 1, "blur=2"), 9),
+        vaoRow(settingsOf(7, 1, 1), 9),
+        vaoRow(settingsOf(16, 0, 0, "blur=0"), 9),
+    }));
+    ASSERT_THAT(tables, SizeIs(3)); // culling 1, culling 2, and the other blur
+    const auto& greedy = tables[0].columns[0].milliseconds[2];
+    EXPECT_EQ(greedy[0], 4);
+    EXPECT_EQ(greedy[1], 3);
+    EXPECT_EQ(greedy[2], 2);
+    EXPECT_TRUE(std::isnan(greedy[3]));
+    EXPECT_EQ(tables[1].columns[0].milliseconds[2][2], 1);
+    EXPECT_TRUE(std::isnan(tables[2].columns[0].milliseconds[2][0]));
+    EXPECT_EQ(tables[2].columns[0].milliseconds[2][3], 9);
+    EXPECT_TRUE(std::isnan(tables[2].columns[0].milliseconds[3][0]));
+}
+
+TEST(Ablation, NeedsMoreThanPlain) {
+    EXPECT_THAT(ablationTables(groupsOf({vaoRow(settingsOf(8, 0, 0), 4)})), IsEmpty());
+}
+
+// As a row of the technique's defaults would be written.
+SweepRow defaultRow(const std::string& id, int view) {
+    SweepRow row;
+    row.technique = id;
+    row.configuration = id;
+    for (const auto& [name, value] : Settings(technique(id)).named())
+        row.settings += fmt::format("{}={} ", name, name == "radius" ? 0.77 : value);
+    row.scene = "sponza";
+    row.view = fmt::format("view {}", view);
+    row.width = 1920;
+    row.height = 1080;
+    row.gbuffer = 2;
+    row.total.median = view;
+    return row;
+}
+
+TEST(FrameRates, AreThoseOfDefaultSettingsOnFourViews) {
+    std::vector<SweepRow> rows;
+    for (int view = 1; view <= 5; ++view) {
+        rows.push_back(defaultRow("hbao", view));
+        rows.push_back(defaultRow("starcraft", view));
+        rows.back().settings = "samples=3 " + rows.back().settings.substr(0, 0);
+        if (view != 2)
+            rows.push_back(defaultRow("vao_plus_plus", view));
+    }
+    const auto all = frameRates(rows);
+    ASSERT_THAT(all, SizeIs(1));
+    EXPECT_THAT(all[0].views, ElementsAre("view 1", "view 2", "view 3", "view 4"));
+    ASSERT_THAT(all[0].lines, SizeIs(2));
+    EXPECT_EQ(all[0].lines[0].technique, "hbao");
+    EXPECT_THAT(all[0].lines[0].milliseconds, ElementsAre(3, 4, 5, 6));
+    EXPECT_TRUE(std::isnan(all[0].lines[1].milliseconds[1]));
+}
+
+TEST(FrameRates, DoNotTakeUnknownTechniquesForDefaults) {
+    SweepRow row = defaultRow("hbao", 1);
+    EXPECT_TRUE(hasDefaultSettings(row));
+    row.technique = "<nobody's>";
+    EXPECT_FALSE(hasDefaultSettings(row));
+}
+
+} // namespace
+} // namespace obscura
