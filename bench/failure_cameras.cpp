@@ -32,23 +32,19 @@ class CloseTest : public FailureTest {
         }
     }
     Finding measure(const TestedTechnique& technique) const override {
-        Finding finding;
-        std::vector<double> found;
+        std::vector<Finding::Measure> found;
+        Image image;
         for (std::size_t i = 0; i < views_.size(); ++i) {
-            finding.picture = technique.visibility(views_[i].probe());
-            found.push_back(meanOcclusion(finding.picture, bands_[i]));
-            finding.measures.push_back(
-                {fmt::format("occlusion from {} R away", distances[i]), found.back()});
+            image = technique.visibility(views_[i].probe());
+            found.push_back({fmt::format("occlusion from {} R away", distances[i]),
+                             meanOcclusion(image, bands_[i])});
         }
-        finding.expected = views_.back().truth();
-        finding.measures.insert(
-            finding.measures.begin(),
-            {"change of occlusion in the crease on coming near", found.back() - found.front()});
-        finding.measures.push_back({"time near / far",
-                                    technique.seconds(views_.back().probe(), runs) /
-                                        technique.seconds(views_.front().probe(), runs),
-                                    "wall time on this machine, read-back included"});
-        return finding;
+        const double change = found.back().value - found.front().value;
+        found.push_back({"time near / far",
+                         technique.seconds(views_.back().probe(), runs) /
+                             technique.seconds(views_.front().probe(), runs),
+                         "wall time on this machine, read-back included"});
+        return {change, "", image, views_.back().truth(), found};
     }
     const FailureView& view() const override { return views_.back(); }
 
@@ -74,7 +70,7 @@ class FarDepthTest : public FailureTest {
             }
     }
     Finding measure(const TestedTechnique& technique) const override {
-        std::vector<Measured> measures;
+        std::vector<Finding::Measure> others;
         Worst worst;
         double nearPlane = 0, nearCrease = 0;
         for (std::size_t i = 0; i < places_.size(); ++i) {
@@ -82,8 +78,8 @@ class FarDepthTest : public FailureTest {
             const Image image = technique.visibility(views_[i].probe());
             const double plane = meanOcclusion(image, at.plane);
             const double crease = meanOcclusion(image, at.crease);
-            measures.push_back({"plane, " + at.name, plane});
-            measures.push_back({"crease, " + at.name, crease});
+            others.push_back({"plane, " + at.name, plane});
+            others.push_back({"crease, " + at.name, crease});
             nearPlane = i == 0 ? plane : nearPlane;
             nearCrease = i == 0 ? crease : nearCrease;
             if (!at.counts)
@@ -91,9 +87,7 @@ class FarDepthTest : public FailureTest {
             worst.offer(plane - nearPlane, "plane, " + at.name, image, i);
             worst.offer(crease - nearCrease, "crease, " + at.name, image, i);
         }
-        measures.insert(measures.begin(),
-                        {"largest change of occlusion up to 100 R", worst.value, worst.where});
-        return {measures, worst.picture, views_[worst.index].truth()};
+        return {worst.value, worst.where, worst.picture, views_[worst.index].truth(), others};
     }
     const FailureView& view() const override { return views_.front(); }
 
@@ -110,47 +104,67 @@ class FarDepthTest : public FailureTest {
 
 class BandingTest : public FailureTest {
   public:
-    explicit BandingTest(ImageSize size) : scene_(creaseScene()) {
-        const double window = 0.3 * size.width;
-        for (const Sight& sight : sights) {
-            const FailureView& view =
-                views_.emplace_back(scene_, creaseCamera(6, sight.height, sight.degrees), size);
-            patches_.push_back(view.select([=](const SeenPoint& point) {
-                return std::abs(static_cast<double>(point.pixelsAcross)) < window &&
-                       fromCrease(point) > 0.2f && fromCrease(point) < 0.8f;
-            }));
-        }
+    explicit BandingTest(ImageSize size) : crease_(creaseScene()), rods_(rodScene()) {
+        const double window = 0.45 * size.height;
+        const auto middle = [=](const SeenPoint& point) {
+            return std::hypot(static_cast<double>(point.pixelsAcross),
+                              static_cast<double>(point.pixelsUp)) < window;
+        };
+        const auto besideCrease = [=](const SeenPoint& point) {
+            return middle(point) && between(fromCrease(point), 0.2, 0.8);
+        };
+        add("close by", crease_, creaseCamera(6, 2.7), size, besideCrease);
+        add("farther", crease_, creaseCamera(6, 10), size, besideCrease);
+        add("floor at 80°", crease_, creaseCamera(6, 2.7, 10), size, besideCrease);
+        add("among rods", rods_, rodCamera(), size, middle);
     }
     Finding measure(const TestedTechnique& technique) const override {
-        std::vector<Measured> measures;
+        std::vector<Finding::Measure> others;
         Worst worst;
-        for (std::size_t i = 0; i < views_.size(); ++i) {
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const Place& at = places_[i];
             const Image image = technique.visibility(views_[i].probe());
-            const Image levelled = withRowsLevelled(image, patches_[i]);
+            const Image levelled = withDiagonalsLevelled(image, at.patch);
             for (const int period : {3, 4}) {
-                const TilePattern found = tilePattern(image, levelled, patches_[i], period);
-                const std::string name = fmt::format("{} x {}, {}", period, period, sights[i].name);
+                const TilePattern found = tilePattern(image, levelled, at.patch, period);
+                const std::string name = fmt::format("{} x {}, {}", period, period, at.name);
                 worst.offer(found.amplitude, name, image, i);
-                measures.push_back({"RMS, " + name, found.amplitude});
-                measures.push_back({"share of the grain's energy, " + name, found.share});
+                others.push_back({"RMS, " + name, found.amplitude});
+                others.push_back({"share of the grain's energy, " + name, found.share});
             }
+            others.push_back(
+                {"RMS of all grain, " + at.name, difference(image, levelled, at.patch).rms});
         }
-        measures.insert(measures.begin(),
-                        {"RMS of the pattern of the noise tile", worst.value, worst.where});
-        return {measures, worst.picture, withRowsLevelled(worst.picture, patches_[worst.index])};
+        for (const char* filter : {"blur", "denoise"})
+            if (technique.settings().has(filter))
+                others.push_back(
+                    {"RMS, 4 x 4, farther, unfiltered", unfiltered(technique, filter)});
+        return {worst.value, worst.where, worst.picture,
+                withDiagonalsLevelled(worst.picture, places_[worst.index].patch), others};
     }
-    const FailureView& view() const override { return views_.front(); }
+    const FailureView& view() const override { return views_.back(); }
 
   private:
-    struct Sight {
-        const char* name;
-        double height, degrees;
+    struct Place {
+        std::string name;
+        Selection patch;
     };
-    static constexpr Sight sights[] = {
-        {"close by", 2.7, 45}, {"farther", 10, 45}, {"floor at 80°", 2.7, 10}};
-    FailureScene scene_;
+    static constexpr std::size_t farther = 1;
+    double unfiltered(const TestedTechnique& technique, const char* filter) const {
+        const TestedTechnique raw(fmt::format("{} {}=0", technique.configuration(), filter));
+        const Image image = raw.visibility(views_[farther].probe());
+        const Selection& patch = places_[farther].patch;
+        return tilePattern(image, withDiagonalsLevelled(image, patch), patch, 4).amplitude;
+    }
+    void add(const char* name, const FailureScene& scene, const Camera& camera, ImageSize size,
+             const std::function<bool(const SeenPoint&)>& patch) {
+        views_.emplace_back(scene, rolled(camera, -45), size);
+        places_.push_back({name, views_.back().select(patch)});
+    }
+
+    FailureScene crease_, rods_;
     std::deque<FailureView> views_;
-    std::vector<Selection> patches_;
+    std::vector<Place> places_;
 };
 
 const FailureTestRow rows[] = {
@@ -166,10 +180,11 @@ const FailureTestRow rows[] = {
       "largest change of occlusion up to 100 R", 0.02, 0.25},
      makeTest<FarDepthTest>},
     {{"banding", "Tile banding",
-      "Beside a crease occlusion is the same along the edge; what repeats with a tile of 3 or 4 "
-      "pixels there is the noise's, blur or not: close by, farther, and with the floor at a "
-      "grazing angle. Truth: none.",
-      "RMS of the pattern of the noise tile", 0.004, 0.04},
+      "Beside a crease, close by, far off and at a grazing angle, and among rods, occlusion is the "
+      "same along the diagonals of the image; what repeats there every 3 or 4 pixels is the "
+      "noise's "
+      "tile, blur or not. Truth: none.",
+      "RMS of the pattern of the noise tile", 0.002, 0.02},
      makeTest<BandingTest>},
 };
 

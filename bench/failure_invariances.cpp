@@ -1,13 +1,12 @@
 #include "bench/failure_scenes.h"
 #include "bench/failure_test.h"
+#include "bench/rolled_view.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <deque>
-#include <numbers>
 
 namespace obscura {
 
@@ -51,13 +50,13 @@ class BorderTest : public FailureTest {
         const Image smooth = withoutGrain(image), smoothPadded = withoutGrain(padded);
         const Difference ring = difference(smooth, smoothPadded, ring_);
         const double middle = difference(smooth, smoothPadded, middle_).rms;
-        return {{{"RMSE within a radius of the border",
-                  std::sqrt(std::max(ring.rms * ring.rms - middle * middle, 0.0))},
-                 {"RMSE elsewhere, taken off", middle},
-                 {"occlusion gained at the border", ring.mean},
-                 {"largest difference", difference(image, padded, ring_).largest}},
+        return {std::sqrt(std::max(ring.rms * ring.rms - middle * middle, 0.0)),
+                "",
                 image,
-                padded};
+                padded,
+                {{"RMSE elsewhere, taken off", middle},
+                 {"occlusion gained at the border", ring.mean},
+                 {"largest difference", difference(image, padded, ring_).largest}}};
     }
     const FailureView& view() const override { return view_; }
 
@@ -96,11 +95,11 @@ class ResolutionTest : public FailureTest {
                 shrunk.pixels.push_back(sum / static_cast<float>(ratio * ratio));
             }
         const Difference found = difference(image, shrunk, smooth_);
-        return {{{"RMSE of a quarter of the lines", found.rms,
-                  fmt::format("{} lines against {}", image.height, large.height)},
-                 {"occlusion gained by fewer lines", found.mean}},
-                image,
-                shrunk};
+        return {found.rms,
+                fmt::format("{} lines against {}", image.height, large.height),
+                onlySelected(image, smooth_),
+                onlySelected(shrunk, smooth_),
+                {{"occlusion gained by fewer lines", found.mean}}};
     }
     const FailureView& view() const override { return coarse_; }
 
@@ -119,87 +118,28 @@ class ResolutionTest : public FailureTest {
     Selection smooth_; // where a coarse pixel and its fine ones show one place
 };
 
-// An image of a rolled camera, turned back.
-class RolledView {
-  public:
-    RolledView(const FailureScene& scene, const FailureView& level, double degrees, ImageSize size)
-        : degrees_(degrees), size_(size), view_(scene, hallCamera(degrees), size) {
-        for (const SeenPoint& point : level.points()) {
-            const std::array<Tap, 4> taps = tapsAt(point);
-            glm::vec3 seen(0);
-            for (const Tap& tap : taps)
-                seen += tap.weight * view_.points()[tap.pixel].position;
-            const bool turned = std::hypot(point.pixelsAcross, point.pixelsUp) <
-                                static_cast<float>(std::min(size.width, size.height)) / 2 - 1;
-            same_.push_back(point.shown && turned && glm::distance(seen, point.position) < 0.02f);
-            taps_.push_back(taps);
-        }
-    }
-    double degrees() const { return degrees_; }
-    const FailureView& view() const { return view_; }
-    // Pixels that show the same place in both.
-    const Selection& same() const { return same_; }
-    Image turnedBack(const Image& image) const {
-        Image result = image;
-        for (std::size_t i = 0; i < taps_.size(); ++i) {
-            result.pixels[i] = 0;
-            for (const Tap& tap : taps_[i])
-                result.pixels[i] += tap.weight * image.pixels[tap.pixel];
-        }
-        return result;
-    }
-
-  private:
-    struct Tap {
-        std::size_t pixel;
-        float weight;
-    };
-    std::array<Tap, 4> tapsAt(const SeenPoint& point) const {
-        const double radians = degrees_ * std::numbers::pi / 180;
-        const float sine = static_cast<float>(std::sin(radians));
-        const float cosine = static_cast<float>(std::cos(radians));
-        const float across = cosine * point.pixelsAcross - sine * point.pixelsUp;
-        const float up = sine * point.pixelsAcross + cosine * point.pixelsUp;
-        const float x = std::clamp(across + static_cast<float>(size_.width) / 2 - 0.5f, 0.0f,
-                                   static_cast<float>(size_.width) - 1.001f);
-        const float y = std::clamp(static_cast<float>(size_.height) / 2 - up - 0.5f, 0.0f,
-                                   static_cast<float>(size_.height) - 1.001f);
-        const float right = x - std::floor(x), below = y - std::floor(y);
-        const auto pixel =
-            static_cast<std::size_t>(static_cast<int>(y) * size_.width + static_cast<int>(x));
-        const auto width = static_cast<std::size_t>(size_.width);
-        return {Tap{pixel, (1 - right) * (1 - below)}, Tap{pixel + 1, right * (1 - below)},
-                Tap{pixel + width, (1 - right) * below}, Tap{pixel + width + 1, right * below}};
-    }
-
-    double degrees_;
-    ImageSize size_;
-    FailureView view_;
-    Selection same_;
-    std::vector<std::array<Tap, 4>> taps_;
-};
-
 class RollTest : public FailureTest {
   public:
     explicit RollTest(ImageSize size) : scene_(hallScene()), level_(scene_, hallCamera(), size) {
         for (const double degrees : {15, 30, 45, 60, 75, 90})
-            rolled_.emplace_back(scene_, level_, degrees, size);
+            rolled_.emplace_back(scene_, level_, hallCamera(), degrees);
     }
     Finding measure(const TestedTechnique& technique) const override {
         const Image level = technique.visibility(level_.probe());
-        std::vector<Measured> measures;
+        std::vector<Finding::Measure> others;
         Worst worst;
         for (std::size_t i = 0; i < rolled_.size(); ++i) {
             const RolledView& rolled = rolled_[i];
             const Image image = rolled.turnedBack(technique.visibility(rolled.view().probe()));
             const Difference found = difference(image, level, rolled.same());
             const std::string place = fmt::format("{}°", rolled.degrees());
-            measures.push_back({"RMSE at " + place, found.rms});
-            measures.push_back({"occlusion gained at " + place, found.mean});
+            others.push_back({"RMSE at " + place, found.rms});
+            others.push_back({"occlusion gained at " + place, found.mean});
             worst.offer(found.rms, place, image, i);
         }
-        measures.insert(measures.begin(), {"RMSE at the worst roll", worst.value, worst.where});
-        return {measures, worst.picture, level};
+        const Selection& same = rolled_[worst.index].same();
+        return {worst.value, worst.where, onlySelected(worst.picture, same),
+                onlySelected(level, same), others};
     }
     const FailureView& view() const override { return level_; }
 
@@ -214,23 +154,22 @@ class ScaleTest : public FailureTest {
     explicit ScaleTest(ImageSize size) {
         for (const double scale : scales) {
             scenes_.emplace_back(hallScene(scale));
-            views_.emplace_back(scenes_.back(), hallCamera(0, scale), size);
+            views_.emplace_back(scenes_.back(), hallCamera(scale), size);
         }
         all_ = views_.front().select([](const SeenPoint&) { return true; });
     }
     Finding measure(const TestedTechnique& technique) const override {
         const Image plain = technique.visibility(views_[0].probe());
-        std::vector<Measured> measures;
+        std::vector<Finding::Measure> others;
         Worst worst;
         for (std::size_t i = 1; i < views_.size(); ++i) {
             const Image image = technique.scaled(scales[i]).visibility(views_[i].probe());
             const double found = difference(image, plain, all_).rms;
             const std::string place = fmt::format("x {}", scales[i]);
-            measures.push_back({"RMSE at " + place, found});
+            others.push_back({"RMSE at " + place, found});
             worst.offer(found, place, image, i);
         }
-        measures.insert(measures.begin(), {"RMSE at the worst scale", worst.value, worst.where});
-        return {measures, worst.picture, plain};
+        return {worst.value, worst.where, worst.picture, plain, others};
     }
     const FailureView& view() const override { return views_.front(); }
 

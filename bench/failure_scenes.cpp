@@ -155,17 +155,20 @@ Scene hallScene(double scale) {
     return scene;
 }
 
-Camera hallCamera(double rollDegrees, double scale) {
-    const glm::dvec3 position = scale * glm::dvec3(1.1, 1.9, 4.2);
-    const glm::dvec3 target = scale * glm::dvec3(-0.3, 1.3, -3.6);
-    const glm::dvec3 forward = glm::normalize(target - position);
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0, 1, 0)));
-    const glm::dvec3 up = std::cos(radians(rollDegrees)) * glm::cross(right, forward) +
-                          std::sin(radians(rollDegrees)) * right;
-    Camera camera =
-        cameraAt({position.x, position.y, position.z}, {target.x, target.y, target.z}, 60);
-    camera.up = {up.x, up.y, up.z};
+Camera hallCamera(double scale) {
+    Camera camera = cameraAt({1.1 * scale, 1.9 * scale, 4.2 * scale},
+                             {-0.3 * scale, 1.3 * scale, -3.6 * scale}, 60);
     camera.near *= scale;
+    return camera;
+}
+
+Camera rolled(Camera camera, double degrees) {
+    const auto vector = [](const Vec3& v) { return glm::dvec3(v[0], v[1], v[2]); };
+    const glm::dvec3 forward = glm::normalize(vector(camera.target) - vector(camera.position));
+    const glm::dvec3 right = glm::normalize(glm::cross(forward, vector(camera.up)));
+    const glm::dvec3 up = std::cos(radians(degrees)) * glm::cross(right, forward) +
+                          std::sin(radians(degrees)) * right;
+    camera.up = {up.x, up.y, up.z};
     return camera;
 }
 

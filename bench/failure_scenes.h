@@ -49,7 +49,9 @@ Camera creaseCameraAlong(double degrees);
 
 // A closed hall with columns, benches and steps: what games are made of. All lengths times `scale`.
 Scene hallScene(double scale = 1);
-// Turned about the direction it looks in.
-Camera hallCamera(double rollDegrees = 0, double scale = 1);
+Camera hallCamera(double scale = 1);
+
+// The camera turned about its line of sight: its upward direction leans right by so many degrees.
+Camera rolled(Camera camera, double degrees);
 
 } // namespace obscura

@@ -12,16 +12,17 @@
 
 namespace obscura {
 
-struct Measured {
-    std::string measure; // words
-    double value = 0;
-    std::string note = {}; // StabilityCell::note
-};
-
 // What a test finds about one technique.
 struct Finding {
-    std::vector<Measured> measures; // the headline first
-    Image picture, expected; // visibility where the technique does worst, and as it should be
+    double value = 0;                  // the headline
+    std::string note = {};             // StabilityCell::note
+    Image picture = {}, expected = {}; // visibility where that is, and as it should be
+    struct Measure {
+        std::string name; // words
+        double value = 0;
+        std::string note = {};
+    };
+    std::vector<Measure> others = {};
 };
 
 // Whichever of a test's images is furthest from what it should be.
@@ -55,8 +56,10 @@ std::unique_ptr<FailureTest> makeTest(ImageSize size) {
     return std::make_unique<Test>(size);
 }
 
-// Where shapes deceive: planes, edges, things before others, thin and hidden ones.
-std::span<const FailureTestRow> shapeTests();
+// Where nothing should be dark: planes, convex edges, walls far behind things.
+std::span<const FailureTestRow> openTests();
+// Where occluders are thin, hidden or seen at a grazing angle.
+std::span<const FailureTestRow> occluderTests();
 // Where the camera does: nearness, distance, the noise tile on its screen.
 std::span<const FailureTestRow> cameraTests();
 // What should change nothing and does: borders, resolution, roll and scale.

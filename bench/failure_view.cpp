@@ -18,10 +18,12 @@ SeenPoint seenPoint(const Surfaces& surfaces, int x, int y) {
     const glm::vec3 inView =
         surfaces.position(static_cast<float>(x), static_cast<float>(y), surfaces.depth[i]);
     const float cosine = glm::dot(surfaces.faceNormal[i], glm::normalize(-inView));
-    return {true, glm::vec3(surfaces.frame.worldFromView * glm::vec4(inView, 1)),
+    return {true,
+            glm::vec3(surfaces.frame.worldFromView * glm::vec4(inView, 1)),
             glm::degrees(std::acos(std::clamp(cosine, -1.0f, 1.0f))),
             static_cast<float>(x) + 0.5f - static_cast<float>(surfaces.width) / 2,
-            static_cast<float>(y) + 0.5f - static_cast<float>(surfaces.height) / 2};
+            static_cast<float>(y) + 0.5f - static_cast<float>(surfaces.height) / 2,
+            glm::length(inView)};
 }
 
 // The selected pixels alone, in a row.
@@ -35,6 +37,10 @@ Image selected(const Image& image, const Selection& selection) {
 }
 
 } // namespace
+
+bool between(float value, double low, double high) {
+    return low <= static_cast<double>(value) && static_cast<double>(value) < high;
+}
 
 FailureView::FailureView(const FailureScene& scene, const Camera& camera, ImageSize size,
                          Probe::StoredDepth storedDepth)
@@ -72,10 +78,19 @@ const Image& FailureView::truth() const {
 Image FailureView::lit() const {
     const Surfaces& surfaces = probe_.surfaces();
     Image image{surfaces.width, surfaces.height, 1, {}};
-    for (const SeenPoint& point : points_)
+    for (const SeenPoint& point : points_) {
+        const float light = std::cos(glm::radians(point.degrees)) * surfaces.frame.depth.z;
         image.pixels.push_back(
-            point.shown ? srgbFromLinear(0.8f * std::cos(glm::radians(point.degrees))) : 1);
+            point.shown ? srgbFromLinear(std::min(0.8f * light / point.distance, 1.0f)) : 1);
+    }
     return image;
+}
+
+Image onlySelected(const Image& image, const Selection& selection) {
+    Image result = image;
+    for (std::size_t i = 0; i < selection.size(); ++i)
+        result.pixels[i] = selection[i] ? image.pixels[i] : 1;
+    return result;
 }
 
 double meanOcclusion(const Image& visibility, const Selection& selection) {

@@ -25,7 +25,11 @@ struct SeenPoint {
     float degrees = 0;      // between the face's normal and the direction to the camera
     float pixelsAcross = 0; // the point is this many pixels right of the image's middle,
     float pixelsUp = 0;     // and this many above it
+    float distance = 0;     // from the camera
 };
+
+// low <= value < high.
+bool between(float value, double low, double high);
 
 // Which pixels a measure is about; rows from top to bottom.
 using Selection = std::vector<bool>;
@@ -55,6 +59,9 @@ class FailureView {
     std::vector<SeenPoint> points_;
     mutable std::optional<Image> truth_;
 };
+
+// The image where it is selected, white elsewhere.
+Image onlySelected(const Image& image, const Selection& selection);
 
 // Of visibility, over the selected pixels.
 double meanOcclusion(const Image& visibility, const Selection& selection);

@@ -18,7 +18,7 @@ namespace {
 
 std::vector<const FailureTestRow*> allRows() {
     std::vector<const FailureTestRow*> rows;
-    for (const auto tests : {shapeTests(), cameraTests(), invarianceTests()})
+    for (const auto tests : {openTests(), occluderTests(), cameraTests(), invarianceTests()})
         for (const FailureTestRow& row : tests)
             rows.push_back(&row);
     return rows;
@@ -49,13 +49,20 @@ StabilityCell truthCell(const FailureTestRow& row, const FailureTest& test,
 std::vector<StabilityCell> cellsOf(const FailureTestRow& row, const FailureTest& test,
                                    const TestedTechnique& technique, const fs::path& folder) {
     const Finding finding = test.measure(technique);
-    std::vector<StabilityCell> cells;
-    for (const Measured& measured : finding.measures)
-        cells.push_back(
-            {technique.configuration(), std::string(technique.settings().technique().id),
-             std::string(row.about.id), measured.measure, measured.value, "", measured.note});
-    cells.front().picture = pictureName(row.about.id, technique.configuration());
-    writePng(folder / cells.front().picture, pictureOf(finding, row.about.fail));
+    const StabilityCell common{technique.configuration(),
+                               std::string(technique.settings().technique().id),
+                               std::string(row.about.id), std::string(row.about.measure)};
+    const std::string picture = pictureName(row.about.id, technique.configuration());
+    writePng(folder / picture, pictureOf(finding, row.about.fail));
+    std::vector<StabilityCell> cells(1 + finding.others.size(), common);
+    cells[0].value = finding.value;
+    cells[0].picture = picture;
+    cells[0].note = finding.note;
+    for (std::size_t i = 0; i < finding.others.size(); ++i) {
+        cells[i + 1].measure = finding.others[i].name;
+        cells[i + 1].value = finding.others[i].value;
+        cells[i + 1].note = finding.others[i].note;
+    }
     return cells;
 }
 

@@ -27,8 +27,8 @@ struct StabilityCell {
     std::string test;          // StabilityTest::id
     std::string measure;       // words
     double value = std::numeric_limits<double>::quiet_NaN();
-    std::string picture = {}; // PNG in the result folder ("pictures/halo-hbao.png"; may be
-                              // animated), "" when there is none. One per headline is shown
+    std::string picture = {}; // PNG or GIF in the result folder ("pictures/halo-hbao.png"), "" when
+                              // there is none; the page shows those of headlines
     std::string note = {};    // what the number alone does not say, a few words
 };
 

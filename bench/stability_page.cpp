@@ -54,7 +54,7 @@ figcaption { font-size: .8rem; }
 dialog { max-width: 60rem; border: 1px solid #777; }
 dialog::backdrop { background: rgb(0 0 0 / .35); }
 dialog h2 { border: 0; margin-top: 0; padding-top: 0; }
-dialog img { image-rendering: pixelated; width: 100%; margin: .4rem 0; }
+dialog img { image-rendering: pixelated; width: 100%; margin: .4rem 0; box-sizing: border-box; }
 .more { display: none; margin-top: .3rem; }
 dialog .more { display: table; }
 .more td { padding: .1rem .8rem .1rem 0; }
@@ -77,11 +77,13 @@ let shown = null;
 function show(link) {
     const figure = document.getElementById(link.hash.slice(1));
     const section = figure.closest("section").cloneNode(true);
+    const truth = document.getElementById(section.id + "-truth");
     const close = document.createElement("button");
     section.querySelectorAll(".strip").forEach(strip => strip.remove());
     close.textContent = "Close";
     close.addEventListener("click", () => dialog.close());
-    dialog.replaceChildren(...section.children, ...figure.cloneNode(true).children, close);
+    dialog.replaceChildren(...section.children, ...figure.cloneNode(true).children,
+                           ...(truth ? truth.cloneNode(true).children : []), close);
     dialog.querySelectorAll("[id]").forEach(element => element.removeAttribute("id"));
     if (!dialog.open)
         dialog.showModal();
@@ -220,8 +222,9 @@ class PageWriter {
                        const std::string& caption) const {
         if (cell.picture.empty())
             return {};
-        const std::string image =
-            dataAddress("image/png", readFile(folder_ / fs::path(cell.picture)));
+        const fs::path picture = folder_ / cell.picture;
+        const std::string image = dataAddress(
+            picture.extension() == ".gif" ? "image/gif" : "image/png", readFile(picture));
         return fmt::format("<figure id=\"{}\"><img loading=\"lazy\" alt=\"{}, {}\" src=\"{}\"/>"
                            "<figcaption><b>{}</b>{}</figcaption>{}</figure>\n",
                            figureId(test, cell.configuration), escaped(test.title),

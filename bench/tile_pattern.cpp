@@ -5,20 +5,22 @@
 
 namespace obscura {
 
-Image withRowsLevelled(const Image& image, const Selection& patch) {
+Image withDiagonalsLevelled(const Image& image, const Selection& patch) {
+    const auto diagonals = static_cast<std::size_t>(image.width + image.height);
+    std::vector<double> sums(diagonals), counts(diagonals);
+    const auto diagonal = [&](std::size_t i) {
+        const auto width = static_cast<std::size_t>(image.width);
+        return i % width + static_cast<std::size_t>(image.height) - i / width;
+    };
+    for (std::size_t i = 0; i < patch.size(); ++i)
+        if (patch[i]) {
+            sums[diagonal(i)] += static_cast<double>(image.pixels[i]);
+            ++counts[diagonal(i)];
+        }
     Image result = image;
-    const auto width = static_cast<std::size_t>(image.width);
-    for (std::size_t row = 0; row < patch.size(); row += width) {
-        double sum = 0, count = 0;
-        for (std::size_t i = row; i < row + width; ++i)
-            if (patch[i]) {
-                sum += static_cast<double>(image.pixels[i]);
-                ++count;
-            }
-        for (std::size_t i = row; i < row + width; ++i)
-            if (patch[i])
-                result.pixels[i] = static_cast<float>(sum / count);
-    }
+    for (std::size_t i = 0; i < patch.size(); ++i)
+        if (patch[i])
+            result.pixels[i] = static_cast<float>(sums[diagonal(i)] / counts[diagonal(i)]);
     return result;
 }
 

@@ -4,10 +4,12 @@
 
 namespace obscura {
 
-// Visible repetition of a noise tile, in a patch of an image whose truth is constant along rows.
+// Visible repetition of a noise tile, in a patch of an image whose truth is constant along its
+// diagonals, from the top left to the bottom right: along rows or columns a blur that stops at
+// edges would still meet the tile's whole width.
 
-// The image with each row of the selection replaced by its mean there: the grain taken away.
-Image withRowsLevelled(const Image& image, const Selection& patch);
+// The image with the selected pixels of each diagonal replaced by their mean: its grain taken away.
+Image withDiagonalsLevelled(const Image& image, const Selection& patch);
 
 // What of the grain (the difference of the two) repeats every `period` pixels both ways: the energy
 // at the harmonics of the tile, which is what the mean over all tiles leaves.
