@@ -1,9 +1,14 @@
 #include "bench/commands.h"
 #include "bench/stability.h"
 #include "protocols/progress.h"
+#include "renderer/builtin.h"
 #include "renderer/gl/context.h"
+#include "renderer/render.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
 
 namespace obscura {
 
@@ -13,7 +18,29 @@ struct Options {
     StabilityOptions stability;
     std::string device;
     bool quick = false, pageOnly = false;
+    std::string scene = "atrium";
+    std::filesystem::path scenes;
+    std::vector<double> camera{7.6, 1.2, -0.9, -4, 2.4, 1.2};
+    double fovDegrees = 60, radius = 0.5;
+    int frames = 0;
 };
+
+Motion motionOf(const Options& options) {
+    View view;
+    const auto builtins = builtinSceneNames();
+    const bool builtin =
+        std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
+    (builtin ? view.builtin : view.file) = options.scene;
+    const std::vector<double>& c = options.camera;
+    view.camera.position = {c[0], c[1], c[2]};
+    view.camera.target = {c[3], c[4], c[5]};
+    view.camera.fovDegrees = options.fovDegrees;
+    Motion motion{loadSceneOf(view, {options.scenes, {}}), view.camera, options.radius,
+                  options.quick ? quickTemporalEffort() : fullTemporalEffort()};
+    if (options.frames > 0)
+        motion.effort.frames = options.frames;
+    return motion;
+}
 
 int run(Options options) {
     StabilityOptions& stability = options.stability;
@@ -28,6 +55,7 @@ int run(Options options) {
     stability.size.width = stability.size.height * 8 / 9 * 2;
     if (stability.configurations.empty())
         stability.configurations = screenTechniques();
+    stability.motion = motionOf(options);
     Progress progress("stability", 1);
     runStability(stability,
                  [&](double done, const std::string& note) { progress.update(done, note); });
@@ -49,7 +77,20 @@ std::vector<Command> stabilityCommands(CLI::App& app) {
     command->add_option("--height", stability.size.height, "lines of the tests' images")
         ->check(CLI::Range(72, 2160))
         ->capture_default_str();
-    command->add_flag("--quick", options->quick, "smaller images: 108 lines");
+    command->add_flag("--quick", options->quick, "smaller images, fewer frames and paths");
+    const char* scenes = std::getenv("OBSCURA_SCENES");
+    options->scenes = scenes ? scenes : ".";
+    command
+        ->add_option("--scene", options->scene,
+                     "built-in scene or file in the scenes folder, for tests in motion")
+        ->capture_default_str();
+    command->add_option("--scenes", options->scenes, "scenes folder; default OBSCURA_SCENES");
+    command->add_option("--camera", options->camera, "where paths start: position, target")
+        ->expected(6);
+    command->add_option("--fov", options->fovDegrees, "vertical, degrees")->capture_default_str();
+    command->add_option("--radius", options->radius, "of tests in motion, metres")
+        ->capture_default_str();
+    command->add_option("--frames", options->frames, "of each path; default 60, quick 12");
     command->add_flag("--page", options->pageOnly, "only make the page anew from the folder's CSV");
     command->add_option("--device", options->device, "as obscura-render --devices lists it");
     return {{command, [options] { return run(*options); }}};

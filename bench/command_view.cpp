@@ -1,6 +1,7 @@
 #include "bench/commands.h"
 #include "bench/normals.h"
 #include "bench/rays.h"
+#include "bench/tested_technique.h"
 #include "bench/timing.h"
 #include "protocols/progress.h"
 #include "renderer/builtin.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <sstream>
 
 namespace obscura {
 
@@ -85,26 +85,6 @@ int runNormals(const Options& options) {
     return 0;
 }
 
-// "hbao steps=8 blur=0" on a view of that radius.
-Settings settingsFrom(const std::string& text, double radius) {
-    std::istringstream words(text);
-    std::string word;
-    words >> word;
-    TechniqueSetting setting{word, word, {}, {}};
-    while (words >> word) {
-        const std::size_t equals = word.find('=');
-        char* end = nullptr;
-        const double value =
-            equals == std::string::npos ? 0 : std::strtod(word.c_str() + equals + 1, &end);
-        if (!end || *end || end == word.c_str() + equals + 1)
-            throw Error(fmt::format("expected SETTING=NUMBER after the technique, found \"{}\" in "
-                                    "\"{}\"",
-                                    word, text));
-        setting.settings.push_back({word.substr(0, equals), value, {}});
-    }
-    return settingsOf(setting, radius);
-}
-
 int runPasses(const Options& options) {
     const Scene scene = sceneOf(options);
     const gl::Context context;
@@ -113,8 +93,11 @@ int runPasses(const Options& options) {
     const Probe probe(subject, cameraOf(options), options.width, options.height, Normals::smooth,
                       options.settings.seed);
     std::vector<Settings> techniques;
-    for (const std::string& text : options.techniques)
-        techniques.push_back(settingsFrom(text, options.settings.radius));
+    for (const std::string& text : options.techniques) {
+        techniques.push_back(TestedTechnique(text).settings());
+        if (techniques.back().has("radius"))
+            techniques.back().set("radius", options.settings.radius);
+    }
     TimingPlan plan;
     plan.seconds = options.seconds;
     plan.timing = choice.timing;

@@ -3,6 +3,7 @@
 #include "bench/failure_test.h"
 #include "bench/stability_csv.h"
 #include "bench/stability_page.h"
+#include "bench/temporal_tests.h"
 #include "protocols/files.h"
 #include "stimuli/page.h"
 
@@ -83,6 +84,38 @@ std::vector<std::string> screenTechniques() {
     return ids;
 }
 
+namespace {
+
+std::vector<StabilityTest> allTests(const std::vector<StabilityCell>& cells) {
+    std::vector<StabilityTest> tests = stabilityTests();
+    for (const TemporalTest& row : temporalTests())
+        if (std::any_of(cells.begin(), cells.end(),
+                        [&](const StabilityCell& cell) { return cell.test == row.test.id; }))
+            tests.push_back(row.test);
+    return tests;
+}
+
+// The truth's own row is what its noise leaves: no technique can be told from perfect below it.
+std::vector<StabilityCell> cellsInMotion(const Motion& motion,
+                                         const std::vector<TestedTechnique>& tested,
+                                         const fs::path& folder, const TemporalProgress& progress) {
+    std::vector<NamedSettings> configurations;
+    Settings truth(technique("ray_traced"));
+    truth.set("rays", motion.effort.rays);
+    configurations.push_back({truthName, truth});
+    for (const TestedTechnique& each : tested)
+        configurations.push_back({each.configuration(), each.settings()});
+    for (NamedSettings& each : configurations)
+        if (each.settings.has("radius"))
+            each.settings.set("radius", motion.radius);
+    return measureTemporal(
+               {motion.scene, motion.start, motion.radius, configurations, motion.effort, folder},
+               progress)
+        .cells;
+}
+
+} // namespace
+
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress) {
     std::vector<TestedTechnique> tested; // all names are checked before the first is run
@@ -91,7 +124,9 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
     std::vector<StabilityCell> cells;
     std::vector<std::unique_ptr<FailureTest>> tests;
     const std::vector<const FailureTestRow*> rows = allRows();
-    const double steps = static_cast<double>(rows.size() * (tested.size() + 1));
+    // In motion takes about as long as all else.
+    const double steps =
+        static_cast<double>(rows.size() * (tested.size() + 1)) * (options.motion ? 2 : 1);
     double done = 0;
     for (const FailureTestRow* row : rows) {
         progress(done++ / steps, fmt::format("scene of {}", row->about.id));
@@ -107,13 +142,21 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
         }
         writeFile(options.folder / "stability.csv", stabilityCsv(stabilityTests(), cells));
     }
+    if (options.motion) {
+        const auto inMotion = cellsInMotion(*options.motion, tested, options.folder,
+                                            [&](double share, const std::string& note) {
+                                                progress(0.5 + 0.5 * share, "in motion: " + note);
+                                            });
+        cells.insert(cells.end(), inMotion.begin(), inMotion.end());
+        writeFile(options.folder / "stability.csv", stabilityCsv(allTests(cells), cells));
+    }
     writeStabilityPage(options.folder);
     return cells;
 }
 
 void writeStabilityPage(const fs::path& folder) {
-    writeFile(folder / "stability.html",
-              stabilityHtml(stabilityTests(), readStabilityCsv(folder / "stability.csv"), folder));
+    const std::vector<StabilityCell> cells = readStabilityCsv(folder / "stability.csv");
+    writeFile(folder / "stability.html", stabilityHtml(allTests(cells), cells, folder));
 }
 
 } // namespace obscura

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/stability_cell.h"
+#include "bench/temporal.h"
 #include "protocols/match.h"
 
 #include <filesystem>
@@ -13,13 +14,23 @@ namespace obscura {
 // `obscura-bench stability`: techniques through every failure test. The folder gets stability.csv
 // (stability_csv.h), pictures/TEST-CONFIGURATION.png and stability.html (stability_page.h).
 
+// Camera paths through a scene, for steadiness from frame to frame.
+struct Motion {
+    Scene scene;
+    Camera start;
+    double radius = 0.5; // metres; of truth and techniques
+    TemporalEffort effort;
+};
+
 struct StabilityOptions {
     std::vector<std::string> configurations; // tested_technique.h
     std::filesystem::path folder;
     ImageSize size{320, 180}; // of the tests' images; some derive theirs from it
+    std::optional<Motion> motion = {};
 };
 
-// All tests, in the order of the page's columns.
+// All tests of still pictures, in the order of the page's columns; those in motion (temporal.h)
+// follow them.
 std::vector<StabilityTest> stabilityTests();
 // The defaults of every technique of the table that sees only the screen.
 std::vector<std::string> screenTechniques();
