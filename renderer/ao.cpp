@@ -39,22 +39,48 @@ gl::UniformBuffer settingsBlock(const Settings& settings) {
     return gl::UniformBuffer(std::as_bytes(std::span(values)));
 }
 
+// A uniform block where that many points fit into one: every driver has 16 KiB, and all pixels read
+// the same point at once, which is what uniforms are fast at. Both kinds lie alike in memory.
+gl::UniformBuffer::Kind kindOf(std::span<const glm::vec4> points) {
+    return points.size_bytes() <= 16384 ? gl::UniformBuffer::Kind::uniform
+                                        : gl::UniformBuffer::Kind::storage;
+}
+
+// So that shaders compiled for one serve the other.
+bool wholeAlike(const Settings& one, const Settings& other) {
+    for (const Parameter& parameter : one.technique().parameters)
+        if (isWhole(parameter) && one[parameter.name] != other[parameter.name])
+            return false;
+    return true;
+}
+
 std::optional<gl::UniformBuffer> pointsOf(const Settings& settings) {
     if (!settings.technique().points)
         return std::nullopt;
     const std::vector<glm::vec4> points = settings.technique().points(settings);
-    return gl::UniformBuffer(std::as_bytes(std::span(points)), gl::UniformBuffer::Kind::storage);
+    return gl::UniformBuffer(std::as_bytes(std::span(points)), kindOf(points));
 }
 
-void declareBlocks(gl::ShaderText& text, const Technique& technique) {
-    std::string block =
-        fmt::format("layout(std140, binding = 0) uniform FrameBlock {{ Frame frame; "
-                    "}};\nlayout(std140, binding = {}) uniform SettingsBlock {{\n",
-                    settingsBinding);
-    for (const Parameter& parameter : technique.parameters)
-        block += fmt::format("    float {};\n", parameter.name);
-    block += "} settings;\n";
-    if (technique.reads & spheres)
+// Whole numbers are constants of the shader, so that its compiler unrolls loops and leaves out what
+// is switched off; what a study fits or a person drags changes without compiling anew.
+std::string declareSettings(const Settings& settings) {
+    std::string members, values;
+    for (const Parameter& parameter : settings.technique().parameters) {
+        members += fmt::format("    float {};\n", parameter.name);
+        values += fmt::format("{}{}", values.empty() ? "" : ", ",
+                              isWhole(parameter) ? fmt::format("{:.1f}", settings[parameter.name])
+                                                 : fmt::format("given.{}", parameter.name));
+    }
+    return fmt::format("layout(std140, binding = {}) uniform SettingsBlock {{\n{}}} given;\n"
+                       "struct Settings {{\n{}}};\nSettings settings = Settings({});\n",
+                       settingsBinding, members, members, values);
+}
+
+void declareBlocks(gl::ShaderText& text, const Settings& settings) {
+    std::string block = "layout(std140, binding = 0) uniform FrameBlock { Frame frame; };\n";
+    if (!settings.technique().parameters.empty())
+        block += declareSettings(settings);
+    if (settings.technique().reads & spheres)
         block += fmt::format("layout(std430, binding = {}) readonly buffer SphereBlock {{ vec4 "
                              "spheres[]; }}; // world position, radius\n",
                              spheresBinding);
@@ -62,7 +88,15 @@ void declareBlocks(gl::ShaderText& text, const Technique& technique) {
     text.add(block, "(generated declarations)");
 }
 
-std::string declareInputs(const Technique& technique) {
+std::string declarePoints(const std::vector<glm::vec4>& points) {
+    const bool uniform = kindOf(points) == gl::UniformBuffer::Kind::uniform;
+    return fmt::format("layout({}, binding = {}) {} PointBlock {{ vec4 points[{}]; }};\n",
+                       uniform ? "std140" : "std430", pointsBinding,
+                       uniform ? "uniform" : "readonly buffer", points.size());
+}
+
+std::string declareInputs(const Settings& settings) {
+    const Technique& technique = settings.technique();
     std::string text =
         fmt::format("layout(binding = {}) uniform sampler2D depthBuffer;\n", depthUnit);
     if (technique.reads & normals)
@@ -73,9 +107,7 @@ std::string declareInputs(const Technique& technique) {
         text += fmt::format("layout(binding = {}) uniform sampler2D directLight;\n", directUnit);
     }
     if (technique.points)
-        text += fmt::format("layout(std430, binding = {}) readonly buffer PointBlock {{ vec4 "
-                            "points[]; }};\n",
-                            pointsBinding);
+        text += declarePoints(technique.points(settings));
     // Every pass's, for a file's other functions must compile too.
     int unit = resultUnit;
     for (const Pass& pass : technique.passes)
@@ -92,15 +124,15 @@ constexpr const char* countingFetches = R"(int fetchCount = 0;
 #define textureGather(values, uv) (++fetchCount, textureGather(values, uv))
 )";
 
-// A pixel's share of what its group fetches.
+// A pixel's share of what its group fetches; a group lies along one axis.
 constexpr const char* groupShare = R"(    if (gl_LocalInvocationIndex == 0u)
         groupFetches = 0;
     barrier();
     atomicAdd(groupFetches, fetchCount);
     barrier();
-    uvec2 first = gl_WorkGroupID.xy * gl_WorkGroupSize.xy;
-    uvec2 inside = min(gl_WorkGroupSize.xy, uvec2(imageSize(resultImage)) - first);
-    value = vec4(float(groupFetches) / float(inside.x * inside.y));
+    int start = int(gl_WorkGroupID.x * gl_WorkGroupSize.x);
+    int inside = min(int(gl_WorkGroupSize.x), imageSize(resultImage).{} - start);
+    value = vec4(float(groupFetches) / float(inside));
 )";
 
 std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes writes) {
@@ -110,7 +142,8 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
                     : pass.stage == Stage::splat ? ", sphere"
                                                  : "");
     if (writes == Writes::fetches) {
-        call += computes(pass) ? groupShare : "    value = vec4(float(fetchCount));\n";
+        call += computes(pass) ? fmt::format(groupShare, pass.stage == Stage::rows ? "x" : "y")
+                               : "    value = vec4(float(fetchCount));\n";
     } else if (enabledPasses(settings).back() == &pass) {
         if (settings.has("intensity"))
             call += "    value.r = pow(max(1.0 - settings.intensity * (1.0 - value.r), 0.0), "
@@ -118,17 +151,16 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
         call += "    value.r = clamp(value.r, 0.0, 1.0);\n";
     }
     if (computes(pass)) {
-        const bool rows = pass.stage == Stage::rows;
-        return fmt::format("{}layout(local_size_x = {}, local_size_y = {}) in;\n"
+        // Groups of columns lie along x too: llvmpipe fills its vectors from x alone.
+        return fmt::format("{}layout(local_size_x = {}) in;\n"
                            "layout(binding = 0, {}) uniform writeonly image2D resultImage;\n"
-                           "void main() {{\n    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
+                           "void main() {{\n    ivec2 pixel = ivec2(gl_GlobalInvocationID.{});\n"
                            "    {}"
                            "    if (all(lessThan(pixel, imageSize(resultImage))))\n"
                            "        imageStore(resultImage, pixel, value);\n}}\n",
-                           writes == Writes::fetches ? "shared int groupFetches;\n" : "",
-                           rows ? group : 1, rows ? 1 : group,
+                           writes == Writes::fetches ? "shared int groupFetches;\n" : "", group,
                            gl::glslName(writes == Writes::fetches ? gl::Format::r32f : pass.format),
-                           call);
+                           pass.stage == Stage::rows ? "xy" : "yx", call);
     }
     return fmt::format("{}{}layout(location = 0) out vec4 result;\nvoid main() {{\n    ivec2 pixel "
                        "= ivec2(gl_FragCoord.xy);\n    {}    result = value;\n}}\n",
@@ -149,8 +181,8 @@ std::vector<const Pass*> enabledPasses(const Settings& settings) {
 gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level, Writes writes) {
     const Technique& technique = settings.technique();
     gl::ShaderText text;
-    declareBlocks(text, technique);
-    text.add(declareInputs(technique), "(generated declarations)");
+    declareBlocks(text, settings);
+    text.add(declareInputs(settings), "(generated declarations)");
     if (writes == Writes::fetches)
         text.add(countingFetches, "(generated counter)");
     if (technique.reads & light)
@@ -163,7 +195,7 @@ gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level,
 
 gl::ShaderText splatShader(const Settings& settings) {
     gl::ShaderText text;
-    declareBlocks(text, settings.technique());
+    declareBlocks(text, settings);
     text.addFile(shaderFolder(), "splat.vert");
     return text;
 }
@@ -255,9 +287,7 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
 }
 
 void OcclusionPasses::set(const Settings& settings) {
-    assert(&settings.technique() == &settings_.technique() &&
-           enabledPasses(settings) == enabledPasses(settings_) &&
-           downscaleOf(settings) == downscaleOf(settings_));
+    assert(&settings.technique() == &settings_.technique() && wholeAlike(settings, settings_));
     if (settings.values() == settings_.values())
         return;
     settings_ = settings;
@@ -291,12 +321,10 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
               const gl::ScreenTriangle& triangle, const ProxySpheres* spheres) {
     program.use();
     if (computes(pass)) {
-        const auto groups = [](int size, bool shared) {
-            return shared ? (size + group - 1) / group : size;
-        };
+        const bool rows = pass.stage == Stage::rows;
+        const int length = rows ? target.width() : target.height();
         target.bindImage(0);
-        gl::compute(groups(target.width(), pass.stage == Stage::rows),
-                    groups(target.height(), pass.stage == Stage::columns));
+        gl::compute((length + group - 1) / group, rows ? target.height() : target.width());
         return;
     }
     gl::State state;

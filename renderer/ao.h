@@ -66,8 +66,8 @@ class OcclusionPasses {
   public:
     OcclusionPasses(const Settings& settings, int width, int height);
 
-    // From now on with other values, which spares compiling; passes and `downscale` must be the
-    // same.
+    // From now on with other values, which spares compiling; whole numbers, which are constants of
+    // the shaders, must be the same.
     void set(const Settings& settings);
 
     // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
