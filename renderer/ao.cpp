@@ -47,7 +47,7 @@ gl::UniformBuffer::Kind kindOf(std::span<const glm::vec4> points) {
 }
 
 // So that shaders compiled for one serve the other.
-bool wholeAlike(const Settings& one, const Settings& other) {
+[[maybe_unused]] bool wholeAlike(const Settings& one, const Settings& other) {
     for (const Parameter& parameter : one.technique().parameters)
         if (isWhole(parameter) && one[parameter.name] != other[parameter.name])
             return false;

@@ -36,11 +36,11 @@ class Reduction {
                                      .fetches = [](const Settings& s) {
                                          return s.technique().reads & Reads::normals ? 2.0 : 1.0;
                                      }};
-    // Depth of the pixel and its four neighbours; depth and value of four picked pixels.
+    // Two quads of depth; depths and values of four picked pixels.
     static constexpr Pass upsamplePass{.name = "upsample",
                                        .format = gl::Format::r16f,
                                        .work = Work::upsample,
-                                       .fetches = [](const Settings&) { return 5.0 + 4 * 2; }};
+                                       .fetches = [](const Settings&) { return 4.0; }};
     static gl::ShaderText reduceShader();
     static gl::ShaderText upsampleShader();
 

@@ -64,10 +64,10 @@ constexpr Parameter blur{"blur",
 constexpr Fetches one = [](const Settings&) { return 1.0; };
 // Depth and normal of the pixel, depth of each sample.
 constexpr Fetches surfaceAndSamples = [](const Settings& s) { return 2.0 + s["samples"]; };
-// blur.glsl: depth of the pixel and its four neighbours; depth and value of each in the window.
-constexpr Fetches depthBlur = [](const Settings&) { return 5.0 + 16 * 2; };
-// blur_normal.glsl: the normal of each besides.
-constexpr Fetches normalBlur = [](const Settings&) { return 6.0 + 16 * 3; };
+// blur.glsl: depths and values of the window's four quads.
+constexpr Fetches depthBlur = [](const Settings&) { return 4.0 * 2; };
+// blur_normal.glsl: the normals of the pixel and of each in the window besides.
+constexpr Fetches normalBlur = [](const Settings&) { return 4.0 * 2 + 1 + 16; };
 constexpr Fetches boxBlur = [](const Settings&) { return 1.0 + 16; };
 
 constexpr std::array<Pass, 2> gatherAndBlur(Fetches gather, Fetches blurTile) {

@@ -115,14 +115,14 @@ constexpr Parameter multiScaleParameters[] = {
 constexpr Fetches horizonTaps = [](const Settings& s) {
     return 2.0 + s["directions"] * s["steps"];
 };
-// Along one axis: depth of the pixel and its four neighbours; depth and value of each tap.
+// Along one axis: depth of the pixel and its two neighbours; depth and value of each tap.
 constexpr Pass horizonBlurPass(std::string_view name, int scale = 1) {
     return {.name = name,
             .format = Format::r16f,
             .enabledBy = "blur",
             .scale = scale,
             .work = Work::filter,
-            .fetches = [](const Settings& s) { return 5.0 + 2 * (2 * s["blurRadius"] + 1); }};
+            .fetches = [](const Settings& s) { return 3.0 + 2 * (2 * s["blurRadius"] + 1); }};
 }
 
 constexpr Pass horizonPasses[] = {

@@ -142,9 +142,9 @@ constexpr Parameter saoParameters[] = {
     power(),
     downscale};
 
-// Of each of seven taps depth and value, and those of its neighbour in the quad; the latter's value
-// only where no edge is between them.
-constexpr Fetches quadBlur = [](const Settings&) { return 1.0 + 7 * 4; };
+// Depth of the pixel; of each of seven taps depth and value with those of its neighbour in the
+// quad, each in one fetch.
+constexpr Fetches quadBlur = [](const Settings&) { return 1.0 + 7 * 2; };
 
 constexpr Pass saoPasses[] = {
     {.name = "hierarchy",

@@ -61,8 +61,8 @@ constexpr Fetches filterTaps = [](const Settings& s) {
 constexpr Fetches brightness = [](const Settings& s) {
     return s["luminanceSensitivity"] > 0 ? 2.0 : 0.0;
 };
-// Depth and normal of the pixel, four cells of the culling pass.
-constexpr Fetches surfaceAndCells = [](const Settings& s) { return s["culling"] > 0 ? 6.0 : 2.0; };
+// Depth and normal of the pixel, its cell of the culling passes.
+constexpr Fetches surfaceAndCells = [](const Settings& s) { return s["culling"] > 0 ? 3.0 : 2.0; };
 
 // Lines: the most; culling and small balls need fewer.
 constexpr Pass vaoPlusPlusPasses[] = {
@@ -72,6 +72,12 @@ constexpr Pass vaoPlusPlusPasses[] = {
      .scale = 8,
      .work = Work::prepare,
      .fetches = [](const Settings&) { return 2.0 + 8; }},
+    {.name = "mayOcclude",
+     .format = Format::r8,
+     .enabledBy = "culling",
+     .scale = 8,
+     .work = Work::prepare,
+     .fetches = [](const Settings&) { return 4.0; }},
     {.name = "gather",
      .format = Format::r16f,
      .fetches =

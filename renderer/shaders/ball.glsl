@@ -9,7 +9,7 @@
 #include "depth.glsl"
 
 struct Ball {
-    vec2 uv;       // of the pixel whose surface it belongs to
+    ivec2 pixel;   // whose surface it belongs to
     float depth;   // there
     vec3 toCentre; // from the surface, view space
     float radius;
@@ -19,26 +19,27 @@ struct Ball {
 // surface from above, so that a plane leaves all of it open.
 Ball tangentBall(ivec2 pixel, float depth, vec3 normal) {
     float radius = 0.5 * settings.radius;
-    return Ball(uvOf(pixel), depth, normal * radius, radius);
+    return Ball(pixel, depth, normal * radius, radius);
 }
 
-// From the surface to the ray of `uv` where it has the ball's depth.
-vec3 asideOf(Ball ball, vec2 uv) {
-    return vec3((uv - ball.uv) * frame.viewFromUv.xy * ball.depth, 0.0);
+vec3 surfaceOf(Ball ball) { return viewPosition(uvOf(ball.pixel), ball.depth); }
+
+// x and y of the line of sight through a pixel, per unit of depth, less those of the ball's own.
+vec2 turnTo(Ball ball, ivec2 tap) {
+    return vec2(tap - ball.pixel) * (frame.size.zw * frame.viewFromUv.xy);
 }
 
-// Depths, less the ball's, at which the line of sight through `uv` enters and leaves the ball, not
-// behind the camera; equal where it misses.
-vec2 lineThrough(Ball ball, vec2 uv) {
-    vec3 ray = viewPosition(uv, 1.0); // per unit of depth
+// Depths, less the ball's, at which the line of sight through a pixel enters and leaves the ball,
+// not behind the camera; equal where it misses.
+vec2 lineThrough(Ball ball, ivec2 tap) {
+    vec2 own = viewPosition(uvOf(ball.pixel), 1.0).xy, turn = turnTo(ball, tap), ray = own + turn;
     float rise = -ball.toCentre.z;
-    // From the centre to the ray's point at the centre's depth.
-    vec3 aside = asideOf(ball, uv) + ray * rise - ball.toCentre;
-    vec3 moment = cross(ray, aside);
-    float square = dot(ray, ray);
-    float middle = rise - dot(ray, aside) / square;
-    float extent =
-        sqrt(max(square * ball.radius * ball.radius - dot(moment, moment), 0.0)) / square;
+    // From the centre to the ray's point at the centre's depth; z is 0, the ray's is -1.
+    vec2 aside = turn * (ball.depth + rise) + (own * rise - ball.toCentre.xy);
+    float square = 1.0 + dot(ray, ray), moment = ray.x * aside.y - ray.y * aside.x;
+    float within = square * (ball.radius * ball.radius) - dot(aside, aside) - moment * moment;
+    float inverse = 1.0 / square, middle = rise - dot(ray, aside) * inverse;
+    float extent = sqrt(max(within, 0.0)) * inverse;
     return max(vec2(middle - extent, middle + extent), vec2(-ball.depth));
 }
 
@@ -46,10 +47,10 @@ vec2 lineThrough(Ball ball, vec2 uv) {
 float openLength(vec2 line, float scene) { return clamp(scene - line.x, 0.0, line.y - line.x); }
 
 // The part of a line on the normal's side of the surface's plane.
-vec2 clippedLine(vec2 line, Ball ball, vec2 uv, vec3 normal) {
-    float facing = dot(normal, viewPosition(uv, 1.0));
+vec2 clippedLine(vec2 line, Ball ball, ivec2 tap, vec3 normal) {
+    float facing = dot(normal, viewPosition(uvOf(tap), 1.0));
     if (abs(facing) < 1e-6)
         return line;
-    float plane = -dot(normal, asideOf(ball, uv)) / facing;
+    float plane = -dot(normal.xy, turnTo(ball, tap)) * ball.depth / facing;
     return facing < 0.0 ? min(line, plane) : max(line, plane);
 }

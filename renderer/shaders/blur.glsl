@@ -17,26 +17,60 @@ vec2 depthSlope(ivec2 pixel, float depth) {
 }
 
 // 1 on the plane through the pixel, 0 from 1 % of the depth away from it.
-float depthWeight(float depth, vec2 slope, ivec2 offset, float other) {
-    float expected = depth + dot(slope, vec2(offset));
-    return max(0.0, 1.0 - abs(other - expected) / (0.01 * depth));
+float depthWeight(float depth, float expected, float other) {
+    return max(0.0, 1.0 - abs(other - expected) * (100.0 / depth));
+}
+
+// Four pixels are fetched at once: those at these places from a corner, as textureGather orders
+// them.
+const ivec2 quadPlaces[4] = ivec2[4](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0));
+
+vec2 cornerUv(ivec2 corner) { return vec2(corner + 1) * frame.size.zw; } // amid the four
+
+vec4 quadOf(sampler2D values, ivec2 corner) { return textureGather(values, cornerUv(corner)); }
+
+// The window around a pixel: quads from the lower left, row by row. Weights are by depth; beyond
+// the border they are 0.
+struct Window {
+    ivec2 corners[4];
+    vec4 weights[4];
+};
+
+Window windowOf(ivec2 pixel, vec4 depths[4]) {
+    Window window;
+    for (int i = 0; i < 4; ++i)
+        window.corners[i] = pixel + 2 * ivec2(i & 1, i >> 1) - 2;
+    float depth = depths[3].w;
+    vec2 slope = vec2(smallerSlope(depths[2].z, depth, depths[3].z),
+                      smallerSlope(depths[1].x, depth, depths[3].x));
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            ivec2 other = window.corners[i] + quadPlaces[j];
+            bool inside = other == insideOf(other);
+            float expected = depth + dot(slope, vec2(other - pixel));
+            window.weights[i][j] = inside ? depthWeight(depth, expected, depths[i][j]) : 0.0;
+        }
+    return window;
+}
+
+// Depths of the window's quads; the pixel's own is the last one's w.
+vec4[4] depthsAround(ivec2 pixel) {
+    vec4 depths[4];
+    for (int i = 0; i < 4; ++i)
+        depths[i] = quadOf(depthBuffer, pixel + 2 * ivec2(i & 1, i >> 1) - 2);
+    return depths;
 }
 
 // `values` is the pass to blur; its red is visibility.
 vec4 blurByDepth(sampler2D values, ivec2 pixel) {
-    float depth = depthOf(pixel);
-    if (isEmpty(depth))
+    vec4 depths[4] = depthsAround(pixel);
+    if (isEmpty(depths[3].w))
         return vec4(1.0);
-    vec2 slope = depthSlope(pixel, depth);
+    Window window = windowOf(pixel, depths);
     float sum = 0.0, weights = 0.0;
-    for (int y = -2; y < 2; ++y)
-        for (int x = -2; x < 2; ++x) {
-            ivec2 other = pixel + ivec2(x, y);
-            if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, ivec2(frame.size.xy))))
-                continue;
-            float weight = depthWeight(depth, slope, ivec2(x, y), depthOf(other));
-            sum += weight * texelFetch(values, other, 0).r;
-            weights += weight;
-        }
+    for (int i = 0; i < 4; ++i) {
+        sum += dot(window.weights[i], quadOf(values, window.corners[i]));
+        weights += dot(window.weights[i], vec4(1.0));
+    }
     return vec4(sum / weights); // the pixel itself has weight 1
 }

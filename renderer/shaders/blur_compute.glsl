@@ -13,42 +13,48 @@
 
 const int group = 128, widest = 32; // pixels; largest blurRadius (rows/obscurance.h)
 
-shared float lineVisibility[group + 2 * widest];
 shared float lineDepth[group + 2 * widest];
-shared vec3 lineNormal[group + 2 * widest];
+shared uint lineNormal[group + 2 * widest];     // x and y, halves as in the normal buffer
+shared uint lineVisibility[group + 2 * widest]; // and the normal's z
 
 void load(sampler2D values, int slot, ivec2 pixel) {
     bool outside =
         any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, textureSize(values, 0)));
     lineDepth[slot] = outside ? frame.depth.y : depthOf(pixel);
-    lineNormal[slot] = outside ? vec3(0.0) : normalOf(pixel);
-    lineVisibility[slot] = outside ? 1.0 : texelFetch(values, pixel, 0).r;
+    vec3 normal = outside ? vec3(0.0) : normalOf(pixel);
+    float visibility = outside ? 1.0 : texelFetch(values, pixel, 0).r;
+    lineNormal[slot] = packHalf2x16(normal.xy);
+    lineVisibility[slot] = packHalf2x16(vec2(visibility, normal.z));
 }
 
 vec4 blurLine(sampler2D values, ivec2 pixel, ivec2 along) {
-    int radius = int(settings.blurRadius), own = int(gl_LocalInvocationIndex);
+    int radius = int(settings.blurRadius), place = int(gl_LocalInvocationIndex);
     // Slot 0 is the pixel `radius` before the group's first. Invocations beyond the border load
     // too: their neighbours before it are others' neighbours.
-    for (int slot = own; slot < group + 2 * radius; slot += group)
-        load(values, slot, pixel + along * (slot - own - radius));
+    for (int slot = place; slot < group + 2 * radius; slot += group)
+        load(values, slot, pixel + along * (slot - place - radius));
     barrier();
 
-    int centre = own + radius;
+    int centre = place + radius;
     float depth = lineDepth[centre];
     if (isEmpty(depth))
         return vec4(1.0);
+    vec2 own = unpackHalf2x16(lineVisibility[centre]); // visibility, the normal's z
+    vec3 normal = vec3(unpackHalf2x16(lineNormal[centre]), own.y);
+    float narrowness = -0.5 / (settings.depthVariance * settings.radius * settings.radius);
     float sum = 0.0, weights = 0.0;
     for (int i = -radius; i <= radius; ++i) {
         float other = lineDepth[centre + i];
         if (isEmpty(other))
             continue;
-        float apart = (other - depth) / settings.radius, steps = 2.0 * float(i) / float(radius);
-        float weight = exp(-0.5 * (steps * steps + apart * apart / settings.depthVariance)) *
-                       max(dot(lineNormal[centre + i], lineNormal[centre]), 0.0);
-        sum += weight * lineVisibility[centre + i];
+        vec2 value = unpackHalf2x16(lineVisibility[centre + i]);
+        float apart = other - depth, steps = 2.0 * float(i) / float(radius);
+        float facing = dot(vec3(unpackHalf2x16(lineNormal[centre + i]), value.y), normal);
+        float weight = exp(-0.5 * steps * steps + apart * apart * narrowness) * max(facing, 0.0);
+        sum += weight * value.x;
         weights += weight;
     }
-    return vec4(weights > 0.0 ? sum / weights : lineVisibility[centre]);
+    return vec4(weights > 0.0 ? sum / weights : own.x);
 }
 
 vec4 blurColumns(ivec2 pixel) { return blurLine(gatherResult, pixel, ivec2(0, 1)); }

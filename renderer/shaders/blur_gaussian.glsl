@@ -10,16 +10,18 @@ vec4 blurAlong(sampler2D values, ivec2 pixel, ivec2 axis, int stride) {
     float depth = depthOf(pixel * stride);
     if (isEmpty(depth))
         return vec4(1.0);
-    vec2 slope = depthSlope(pixel * stride, depth);
+    float slope =
+        smallerSlope(depthOf((pixel - axis) * stride), depth, depthOf((pixel + axis) * stride));
     int reach = int(settings.blurRadius);
     float sigma = 0.5 * (float(reach) + 1.0); // HBAO+; gl_ssao has half of reach
+    ivec2 last = textureSize(values, 0) - 1;
     float sum = 0.0, weights = 0.0;
     for (int i = -reach; i <= reach; ++i) {
-        ivec2 other = pixel + i * axis;
-        if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, textureSize(values, 0))))
-            continue;
+        ivec2 wanted = pixel + i * axis, other = clamp(wanted, ivec2(0), last);
+        float expected = depth + slope * float(i * stride);
         float weight = exp2(-float(i * i) / (2.0 * sigma * sigma)) *
-                       depthWeight(depth, slope, i * axis * stride, depthOf(other * stride));
+                       depthWeight(depth, expected, depthInside(other * stride));
+        weight = other == wanted ? weight : 0.0;
         sum += weight * texelFetch(values, other, 0).r;
         weights += weight;
     }

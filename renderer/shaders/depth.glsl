@@ -2,11 +2,15 @@
 
 #include "view.glsl"
 
-float depthOf(ivec2 pixel) {
-    return texelFetch(depthBuffer, clamp(pixel, ivec2(0), ivec2(frame.size.xy) - 1), 0).r;
-}
+// The pixel, or the nearest one of the border.
+ivec2 insideOf(ivec2 pixel) { return clamp(pixel, ivec2(0), ivec2(frame.size.xy) - 1); }
 
-float depthAt(vec2 uv) { return depthOf(pixelOf(uv)); }
+// Of a pixel that is known to be inside the image.
+float depthInside(ivec2 pixel) { return texelFetch(depthBuffer, pixel, 0).r; }
+
+float depthOf(ivec2 pixel) { return depthInside(insideOf(pixel)); }
+
+float depthAt(vec2 uv) { return depthInside(pixelOf(uv)); }
 
 // The surface in view space over a screen position, in the middle of its pixel; beyond the border,
 // as deep as at it.

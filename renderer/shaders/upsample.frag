@@ -12,8 +12,6 @@ layout(location = 0) out vec4 visibilityOut;
 
 const float tolerance = 0.01; // of depth, at which a neighbour's weight has fallen to a quarter
 
-float inverseDepth(ivec2 pixel) { return 1.0 / depthOf(pixel); }
-
 // Of the two sides the flatter: the other may lie across an edge.
 float slope(float centre, float before, float after) {
     float down = centre - before, up = after - centre;
@@ -22,30 +20,29 @@ float slope(float centre, float before, float after) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    float depth = depthOf(pixel);
+    // Of the quads whose upper right and lower left corner the pixel is.
+    vec4 before = textureGather(depthBuffer, vec2(pixel) * frame.size.zw);
+    vec4 after = textureGather(depthBuffer, vec2(pixel + 1) * frame.size.zw);
+    float depth = after.w;
     if (isEmpty(depth)) {
         visibilityOut = vec4(1.0);
         return;
     }
-    float centre = 1.0 / depth;
-    vec2 slopes =
-        vec2(slope(centre, inverseDepth(pixel - ivec2(1, 0)), inverseDepth(pixel + ivec2(1, 0))),
-             slope(centre, inverseDepth(pixel - ivec2(0, 1)), inverseDepth(pixel + ivec2(0, 1))));
+    // Inverse depths, as parts of the pixel's own.
+    vec4 sides = depth / vec4(before.x, after.z, before.z, after.x);
+    vec2 slopes = vec2(slope(1.0, sides.x, sides.y), slope(1.0, sides.z, sides.w));
     vec2 place = vec2(pixel - factor / 2) / float(factor); // in picked pixels
-    ivec2 corner = ivec2(floor(place));
-    vec2 part = place - vec2(corner);
-    ivec2 last = textureSize(pickedDepth, 0) - 1;
-    float sum = 0.0, weights = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        ivec2 side = ivec2(i & 1, i >> 1);
-        ivec2 tap = clamp(corner + side, ivec2(0), last);
-        vec2 away = vec2(tap * factor + factor / 2 - pixel);
-        float off = 1.0 / texelFetch(pickedDepth, tap, 0).r - centre - dot(slopes, away);
-        float surface = 1.0 + off * off * depth * depth / (tolerance * tolerance);
-        vec2 near = mix(1.0 - part, part, vec2(side));
-        float weight = (near.x * near.y + 0.001) / (surface * surface);
-        sum += weight * texelFetch(pickedVisibility, tap, 0).r;
-        weights += weight;
-    }
-    visibilityOut = vec4(sum / weights);
+    vec2 corner = floor(place), part = place - corner;
+    vec2 size = vec2(textureSize(pickedDepth, 0)), uv = (corner + 1.0) / size;
+    vec2 low = max(corner, 0.0), high = min(corner + 1.0, size - 1.0);
+    vec4 depths = textureGather(pickedDepth, uv), values = textureGather(pickedVisibility, uv);
+    // In the order of textureGather: upper left, upper right, lower right, lower left.
+    vec4 away = (vec4(low.x, high.x, high.x, low.x) - place.x) * (slopes.x * float(factor)) +
+                (vec4(high.y, high.y, low.y, low.y) - place.y) * (slopes.y * float(factor));
+    vec4 off = (depth / depths - 1.0 - away) / tolerance;
+    vec4 surface = 1.0 + off * off;
+    vec4 near = vec4(1.0 - part.x, part.x, part.x, 1.0 - part.x) *
+                vec4(part.y, part.y, 1.0 - part.y, 1.0 - part.y);
+    vec4 weights = (near + 0.001) / (surface * surface);
+    visibilityOut = vec4(dot(weights, values) / dot(weights, vec4(1.0)));
 }

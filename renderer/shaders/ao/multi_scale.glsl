@@ -46,21 +46,20 @@ vec4 detailDown(ivec2 pixel) { return blurAlong(detailAcrossResult, pixel, ivec2
 float upsampledCoarse(ivec2 pixel, float depth, bool blurred) {
     vec2 slope = depthSlope(pixel, depth);
     vec3 normal = normalOf(pixel);
-    ivec2 odd = pixel & 1;
+    ivec2 odd = pixel & 1, last = textureSize(coarseResult, 0) - 1;
     float sum = 0.0, weights = 0.0;
-    for (int y = 0; y <= odd.y; ++y)
-        for (int x = 0; x <= odd.x; ++x) {
-            ivec2 cell = (pixel >> 1) + ivec2(x, y);
-            if (any(greaterThanEqual(2 * cell, ivec2(frame.size.xy))))
-                continue;
-            float facing = smoothstep(0.6, 0.9, dot(normal, normalOf(2 * cell)));
-            float weight =
-                1e-3 + facing * depthWeight(depth, slope, 2 * cell - pixel, depthOf(2 * cell));
-            float value = blurred ? texelFetch(coarseDownResult, cell, 0).r
-                                  : texelFetch(coarseResult, cell, 0).r;
-            sum += weight * value;
-            weights += weight;
-        }
+    for (int i = 0; i < 4; ++i) {
+        ivec2 side = ivec2(i & 1, i >> 1), cell = min((pixel >> 1) + side, last);
+        float facing = smoothstep(0.6, 0.9, dot(normal, normalOf(2 * cell)));
+        float expected = depth + dot(slope, vec2(2 * cell - pixel));
+        float weight = 1e-3 + facing * depthWeight(depth, expected, depthInside(2 * cell));
+        if (any(greaterThan(side, odd)) || cell != (pixel >> 1) + side)
+            weight = 0.0;
+        float value =
+            blurred ? texelFetch(coarseDownResult, cell, 0).r : texelFetch(coarseResult, cell, 0).r;
+        sum += weight * value;
+        weights += weight;
+    }
     return sum / weights;
 }
 

@@ -35,11 +35,21 @@ ivec2 rotatedGrid(ivec2 pixel, ivec2 size) {
 
 ivec2 sizeOfLevel(int level) { return max(ivec2(frame.size.xy) >> level, 1); }
 
-// llvmpipe reads all four pixels of a quad from one level even where each names its own, so every
-// level is read by those alone that want it.
+// The least of the quad's four values; what it takes for a pixel that shows no surface is
+// undefined.
+float leastOfQuad(float value) {
+    vec2 towardsOther = 1.0 - 2.0 * vec2(ivec2(gl_FragCoord.xy) & 1);
+    float row = min(value, value + towardsOther.x * dFdxFine(value));
+    return min(row, row + towardsOther.y * dFdyFine(row));
+}
+
+// llvmpipe reads all four pixels of a quad from one level even where each names its own, so a quad
+// goes through the levels that its own lie between, mostly one; each pixel takes from its own.
 float depthAtLevel(ivec2 texel, int level) {
+    int first = max(int(leastOfQuad(float(level))), 0);
+    int last = min(-int(leastOfQuad(-float(level))), textureQueryLevels(hierarchyResult) - 1);
     float depth = 0.0;
-    for (int l = 0; l < textureQueryLevels(hierarchyResult); ++l)
+    for (int l = first; l <= last; ++l)
         if (l == level)
             depth = texelFetch(hierarchyResult, texel, l).r;
     return depth;
@@ -105,15 +115,13 @@ float depthKey(float depth, float other) {
     return max(1.0 - abs(other - depth) / (settings.edgeDepth * settings.radius), 0.0);
 }
 
-// The value at a pixel, averaged with its neighbour in the quad along the axis unless an edge
-// separates them; the authors' program does so with derivatives.
-float pairMean(sampler2D values, ivec2 pixel, ivec2 axis, float depth) {
-    float value = texelFetch(values, pixel, 0).r;
-    ivec2 other = pixel + axis * (1 - 2 * (pixel & 1));
-    bool inside = all(lessThan(other, ivec2(frame.size.xy)));
-    if (!inside || depthKey(depth, depthOf(other)) == 0.0)
-        return value;
-    return 0.5 * (value + texelFetch(values, other, 0).r);
+// Of a pixel (first) and its neighbour in the quad along the axis (second), in one fetch. Beyond
+// the border the neighbour is the pixel itself.
+vec2 pairOf(sampler2D values, ivec2 pixel, ivec2 axis) {
+    ivec2 even = pixel & ~axis;
+    vec4 quad = textureGather(values, vec2(even + 1) * frame.size.zw);
+    vec2 pair = axis.x > 0 ? quad.wz : quad.wx;
+    return even == pixel ? pair : pair.yx;
 }
 
 vec4 blurAlong(sampler2D values, ivec2 pixel, ivec2 axis) {
@@ -122,13 +130,15 @@ vec4 blurAlong(sampler2D values, ivec2 pixel, ivec2 axis) {
         return vec4(1.0);
     float sum = 0.0, weights = 0.0;
     for (int i = -3; i <= 3; ++i) {
-        ivec2 other = pixel + int(settings.blurStep) * i * axis;
-        if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, ivec2(frame.size.xy))))
-            continue;
-        float otherDepth = depthOf(other);
+        ivec2 wanted = pixel + int(settings.blurStep) * i * axis, other = insideOf(wanted);
+        vec2 depths = pairOf(depthBuffer, other, axis), pair = pairOf(values, other, axis);
+        // A value is averaged with its neighbour in the quad unless an edge separates them; the
+        // authors' program does so with derivatives.
+        float value = depthKey(depths.x, depths.y) > 0.0 ? 0.5 * (pair.x + pair.y) : pair.x;
         // Spatial weight of the authors' program: a Gaussian of 1.1 taps on a pedestal.
-        float weight = (0.3 + 0.357 * exp(-float(i * i) / 2.42)) * depthKey(depth, otherDepth);
-        sum += weight * pairMean(values, other, axis, otherDepth);
+        float weight = (0.3 + 0.357 * exp(-float(i * i) / 2.42)) * depthKey(depth, depths.x);
+        weight = other == wanted ? weight : 0.0;
+        sum += weight * value;
         weights += weight;
     }
     return vec4(sum / weights); // the pixel itself has weight

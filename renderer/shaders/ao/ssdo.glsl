@@ -1,8 +1,8 @@
 // Screen-space directional occlusion (Ritschel, Grosch and Seidel 2009): points in the hemisphere
-// at directions w_i and random lengths up to the radius. A point in front of the surface is open and
-// lets the environment's light of its direction in (equation 1, rho / pi L_in V cos dw); the surface
-// over any other point sends its own light on instead (equation 2, rho / pi L_pixel A_s cos_s cos_r
-// / d^2 with A_s = pi radius^2 / samples, a share of the hemisphere's base).
+// at directions w_i and random lengths up to the radius. A point in front of the surface is open
+// and lets the environment's light of its direction in (equation 1, rho / pi L_in V cos dw); the
+// surface over any other point sends its own light on instead (equation 2, rho / pi L_pixel A_s
+// cos_s cos_r / d^2 with A_s = pi radius^2 / samples, a share of the hemisphere's base).
 //
 // Departures:
 // - Equation 1 is written as ambient light x (open sum / sum over all points), channel by channel.
@@ -25,14 +25,13 @@
 #include "noise.glsl"
 
 // Whether the surface at `uv`, over which the point lies, is in front of it. How far is measured
-// from the surface's plane: by depth alone, a slope would occlude itself where its pixels are large,
-// and beyond the screen's border, where its plane goes on.
+// from the surface's plane: by depth alone, a slope would occlude itself where its pixels are
+// large, and beyond the screen's border, where its plane goes on.
 bool isBlocked(vec3 point, out vec2 uv) {
     uv = uvFromView(point);
     ivec2 tap = pixelOf(uv);
     vec3 away = (viewPosition(uvOf(tap), depthOf(tap)) - point) / settings.radius;
-    return away.z > 0.0 && away.z < settings.thickness &&
-           dot(normalOf(tap), away) > settings.bias;
+    return away.z > 0.0 && away.z < settings.thickness && dot(normalOf(tap), away) > settings.bias;
 }
 
 // Visibility, then the part of the ambient light's red, green and blue that arrives.
@@ -90,19 +89,37 @@ vec4 bounce(ivec2 pixel) {
                      texelFetch(directLight, tap, 0).rgb;
         sum += light * (cosines / (squared * max(squared, nearest)));
     }
-    return vec4(min(settings.bounceStrength / float(count) * sum, vec3(1e4)), 0.0); // a half's range
+    return vec4(min(settings.bounceStrength / float(count) * sum, vec3(1e4)),
+                0.0); // a half's range
+}
+
+// All four channels of a pass, blurred alike.
+vec4 blurred(sampler2D values, ivec2 pixel, Window window) {
+    vec4 sum = vec4(0.0);
+    float weights = 0.0;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) {
+            ivec2 other = insideOf(window.corners[i] + quadPlaces[j]);
+            sum += window.weights[i][j] * texelFetch(values, other, 0);
+            weights += window.weights[i][j];
+        }
+    return weights > 0.0 ? sum / weights : texelFetch(values, pixel, 0);
 }
 
 vec4 shade(ivec2 pixel) {
-    if (isEmpty(depthOf(pixel)))
+    vec4 depths[4] = depthsAround(pixel);
+    if (isEmpty(depths[3].w))
         return vec4(1.0, 0.0, 0.0, 0.0);
-    bool blurred = settings.blur > 0.0;
-    vec4 arriving = blurred ? blurByDepthAndNormal(gatherResult, pixel)
-                            : texelFetch(gatherResult, pixel, 0);
+    bool blurs = settings.blur > 0.0;
+    Window window;
+    if (blurs)
+        window = windowByNormal(pixel, depths);
+    vec4 arriving =
+        blurs ? blurred(gatherResult, pixel, window) : texelFetch(gatherResult, pixel, 0);
     vec3 added = texelFetch(ambientLight, pixel, 0).rgb * (arriving.gba - arriving.r);
     if (settings.bounce > 0.0) {
-        vec4 sent = blurred ? blurByDepthAndNormal(bounceResult, pixel)
-                            : texelFetch(bounceResult, pixel, 0);
+        vec4 sent =
+            blurs ? blurred(bounceResult, pixel, window) : texelFetch(bounceResult, pixel, 0);
         added += texelFetch(albedoBuffer, pixel, 0).rgb * sent.rgb;
     }
     return vec4(arriving.r, added);

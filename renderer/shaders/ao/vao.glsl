@@ -19,18 +19,19 @@ vec4 gather(ivec2 pixel) {
     if (isEmpty(depth))
         return vec4(1.0);
     Ball ball = tangentBall(pixel, depth, normalOf(pixel));
-    Disc disc = discOf(viewPosition(ball.uv, depth) + ball.toCentre, ball.radius, pixel);
+    Disc disc = discOf(surfaceOf(ball) + ball.toCentre, ball.radius, pixel);
 
     int count = int(settings.samples);
     float open = 0.0, whole = 0.0;
     for (int i = 0; i < count; ++i) {
         vec2 uv = discUv(disc, i, count);
-        if (isOutside(uv))
-            continue;
         ivec2 tap = pixelOf(uv);
-        vec2 line = lineThrough(ball, uvOf(tap));
-        open += openLength(line, depthOf(tap) - depth); // equation 1 of 2017, its three cases
-        whole += line.y - line.x; // equation 2: F from the same taps, whose errors it cancels
+        float weight = isOutside(uv) ? 0.0 : 1.0;
+        vec2 line = lineThrough(ball, tap);
+        // Equation 1 of 2017, its three cases; equation 2: F from the same taps, whose errors it
+        // cancels.
+        open += weight * openLength(line, depthInside(tap) - depth);
+        whole += weight * (line.y - line.x);
     }
     return vec4(whole > 0.0 ? open / whole : 1.0);
 }

@@ -29,18 +29,31 @@
 // Section 4.5: nine rotations dealt over 3 x 3 pixels in steps of 160 degrees, so that neighbours
 // have unlike ones; the seed turns them all. Columns turn a point.
 mat2 tileRotation(ivec2 pixel) {
-    int index = (4 * (pixel.x % 3 + 3 * (pixel.y % 3))) % 9;
+    vec2 place = vec2(pixel) - 3.0 * floor((vec2(pixel) + 0.5) / 3.0); // in the tile
     float turn = unitFloat(hash(uint(frame.seed.x)));
-    float angle = 6.28318531 * ((float(index) + turn) / 9.0);
+    float angle = 6.28318531 / 9.0 * (4.0 * place.x + 3.0 * place.y + turn);
     return mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
 }
 
-// The pixel that shows a point of the disc through the ball's centre, parallel to the screen;
-// `offset` in ball radii.
-ivec2 discPixel(Ball ball, vec2 offset) {
-    vec3 centre = viewPosition(ball.uv, ball.depth) + ball.toCentre;
-    vec2 uv = uvFromView(centre + vec3(offset * ball.radius, 0.0));
-    return pixelOf(clamp(uv, 0.0, 1.0)); // first: a whole number cannot hold just any float
+// The disc through the ball's centre, parallel to the screen, in pixels: where its middle is, and
+// the matrix that brings points of the unit disc there.
+struct Disc {
+    vec2 centre;
+    mat2 fromUnit;
+};
+
+float centreDepth(Ball ball) { return max(ball.depth - ball.toCentre.z, frame.depth.x); }
+
+Disc discOf(Ball ball) {
+    vec2 radii = ball.radius / centreDepth(ball) / frame.viewFromUv.xy * frame.size.xy;
+    mat2 stretch = mat2(radii.x, 0.0, 0.0, radii.y);
+    return Disc(uvFromView(surfaceOf(ball) + ball.toCentre) * frame.size.xy,
+                stretch * tileRotation(ball.pixel));
+}
+
+// The pixel that shows a point of the disc. Clamped first: a whole number cannot hold any float.
+ivec2 discPixel(Disc disc, int i) {
+    return ivec2(clamp(disc.centre + disc.fromUnit * points[i].xy, vec2(0.0), frame.size.xy - 1.0));
 }
 
 bool hasSet(int count) { return count >= 2 && count <= 32 && (count & (count - 1)) == 0; }
@@ -52,8 +65,7 @@ int lineCount(Ball ball) {
     int most = int(settings.samples);
     if (settings.adaptive < 0.5)
         return most;
-    float centreDepth = max(ball.depth - ball.toCentre.z, frame.depth.x);
-    float diameter = 2.0 * ball.radius / centreDepth * frame.depth.w * frame.size.y;
+    float diameter = 2.0 * ball.radius / centreDepth(ball) * frame.depth.w * frame.size.y;
     float doublings = 2.0 * log2(max(diameter / settings.adaptiveDiameter, 1.0));
     return min(most, 2 << int(min(doublings, 20.0)));
 }
@@ -68,45 +80,45 @@ float blockedShare(vec2 line, float scene) {
 }
 
 // Equations 1 and 2.
-float openFraction(ivec2 pixel, Ball ball, int count) {
-    mat2 rotation = tileRotation(pixel);
+float openFraction(Ball ball, int count) {
+    Disc disc = discOf(ball);
     int first = firstPoint(count);
     float blocked = 0.0, total = 0.0;
     for (int i = first; i < first + count; ++i) {
-        ivec2 tap = discPixel(ball, rotation * points[i].xy);
-        vec2 line = lineThrough(ball, uvOf(tap));
-        float scene = depthOf(tap) - ball.depth, whole = line.y - line.x;
+        ivec2 tap = discPixel(disc, i);
+        vec2 line = lineThrough(ball, tap);
+        float scene = depthInside(tap) - ball.depth, whole = line.y - line.x;
         blocked += blockedShare(line, scene) * (whole - openLength(line, scene));
         total += whole;
     }
     return total > 0.0 ? 1.0 - blocked / total : 1.0; // a ball smaller than a pixel can be missed
 }
 
-Ball ballOf(ivec2 pixel, float depth) {
-    return tangentBall(pixel, depth, normalOf(pixel));
-}
+Ball ballOf(ivec2 pixel, float depth) { return tangentBall(pixel, depth, normalOf(pixel)); }
 
 // Section 4.2: eight lines for the pixel in the middle of each 8 x 8.
 vec4 cull(ivec2 cell) {
     ivec2 pixel = min(8 * cell + 4, ivec2(frame.size.xy) - 1);
     float depth = depthOf(pixel);
-    return vec4(isEmpty(depth) ? 1.0 : openFraction(pixel, ballOf(pixel, depth), 8));
+    return vec4(isEmpty(depth) ? 1.0 : openFraction(ballOf(pixel, depth), 8));
 }
 
-// Bilinear reads at the corners of the pixel's cell: together the nine cells around, 24 x 24
-// pixels. One cell's occlusion from 1/256 on is seen.
-bool maybeOccluded(ivec2 pixel) {
-    vec2 cell = vec2(pixel / 8), texel = 1.0 / vec2(textureSize(cullResult, 0));
+// Bilinear reads at the corners of the cell: together the nine cells around, 24 x 24 pixels. One
+// cell's occlusion from 1/256 on is seen. All of the cell's pixels would find the same, so it is
+// found once.
+vec4 mayOcclude(ivec2 cell) {
+    vec2 texel = 1.0 / vec2(textureSize(cullResult, 0));
     float least = 1.0;
     for (int corner = 0; corner < 4; ++corner)
-        least = min(least, texture(cullResult, (cell + vec2(corner & 1, corner >> 1)) * texel).r);
-    return least < 1.0 - 1.0 / 1024.0;
+        least =
+            min(least, texture(cullResult, vec2(cell + ivec2(corner & 1, corner >> 1)) * texel).r);
+    return vec4(least < 1.0 - 1.0 / 1024.0 ? 1.0 : 0.0);
 }
 
 // Lines after both savings. The careful pre-pass spends four on what it finds open, whatever the
 // quality, the greedy one none.
 int linesFor(ivec2 pixel, Ball ball) {
-    if (settings.culling < 0.5 || maybeOccluded(pixel))
+    if (settings.culling < 0.5 || texelFetch(mayOccludeResult, pixel >> 3, 0).r > 0.5)
         return lineCount(ball);
     return settings.culling < 1.5 ? 0 : 4;
 }
@@ -132,7 +144,7 @@ vec4 gather(ivec2 pixel) {
     if (isEmpty(depth))
         return vec4(1.0);
     Ball ball = ballOf(pixel, depth);
-    float visibility = openFraction(pixel, ball, linesFor(pixel, ball));
+    float visibility = openFraction(ball, linesFor(pixel, ball));
     return vec4(settings.blur < 0.5 ? spared(pixel, visibility) : visibility);
 }
 
@@ -144,16 +156,15 @@ vec4 filtered(sampler2D values, ivec2 pixel, ivec2 axis) {
         return vec4(1.0);
     bool gaussian = settings.blur > 1.5;
     int reach = gaussian ? int(settings.blurSize) / 2 : int(settings.blur);
+    ivec2 last = ivec2(frame.size.xy) - 1;
     vec4 sum = vec4(0.0);
     float weights = 0.0;
     for (int i = -reach; i <= reach; ++i) {
-        ivec2 other = pixel + i * axis;
-        if (any(lessThan(other, ivec2(0))) || any(greaterThanEqual(other, ivec2(frame.size.xy))))
-            continue;
-        float otherDepth = depthOf(other), deviations = float(i) / settings.blurDeviation;
-        if (isEmpty(otherDepth) || abs(otherDepth - depth) > settings.radius)
-            continue;
+        ivec2 wanted = pixel + i * axis, other = clamp(wanted, ivec2(0), last);
+        float otherDepth = depthInside(other), deviations = float(i) / settings.blurDeviation;
         float weight = gaussian ? exp(-0.5 * deviations * deviations) : 1.0;
+        if (other != wanted || isEmpty(otherDepth) || abs(otherDepth - depth) > settings.radius)
+            weight = 0.0;
         sum += weight * texelFetch(values, other, 0);
         weights += weight;
     }
@@ -174,13 +185,13 @@ vec4 tint(ivec2 pixel) {
     if (isEmpty(depth))
         return vec4(0.0);
     Ball ball = ballOf(pixel, depth);
-    vec3 position = viewPosition(ball.uv, depth), normal = normalOf(pixel), taken = vec3(0.0);
-    mat2 rotation = tileRotation(pixel);
+    vec3 position = surfaceOf(ball), normal = normalOf(pixel), taken = vec3(0.0);
+    Disc disc = discOf(ball);
     int count = linesFor(pixel, ball), first = firstPoint(count);
     int stride = int(settings.colourBleeding);
     for (int i = 0; i < count; i += stride) {
-        ivec2 tap = discPixel(ball, rotation * points[first + i].xy);
-        vec3 towards = viewPosition(uvOf(tap), depthOf(tap)) - position;
+        ivec2 tap = discPixel(disc, first + i);
+        vec3 towards = viewPosition(uvOf(tap), depthInside(tap)) - position;
         float range = length(towards);
         float near = 1.0 - min(range / settings.radius, 1.0);
         float share = max(dot(towards, normal), 0.0) / max(range, 1e-12) * near * near;

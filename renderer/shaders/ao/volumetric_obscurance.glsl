@@ -22,22 +22,21 @@ vec4 gather(ivec2 pixel) {
     if (isEmpty(depth))
         return vec4(1.0);
     bool clipped = settings.clipByNormal > 0.5;
-    Ball ball = Ball(uvOf(pixel), depth, vec3(0.0), settings.radius);
+    Ball ball = Ball(pixel, depth, vec3(0.0), settings.radius);
     vec3 normal = normalOf(pixel);
-    Disc disc = discOf(viewPosition(ball.uv, depth), ball.radius, pixel);
+    Disc disc = discOf(surfaceOf(ball), ball.radius, pixel);
 
     int count = int(settings.samples);
     float open = 0.0, whole = 0.0;
     for (int i = 0; i < count; ++i) {
         vec2 uv = discUv(disc, i, count);
-        if (isOutside(uv))
-            continue;
         ivec2 tap = pixelOf(uv);
-        vec2 line = lineThrough(ball, uvOf(tap));
+        float weight = isOutside(uv) ? 0.0 : 1.0;
+        vec2 line = lineThrough(ball, tap);
         if (clipped)
-            line = clippedLine(line, ball, uvOf(tap), normal);
-        open += openLength(line, depthOf(tap) - depth);
-        whole += line.y - line.x;
+            line = clippedLine(line, ball, tap, normal);
+        open += weight * openLength(line, depthInside(tap) - depth);
+        whole += weight * (line.y - line.x);
     }
     float visibility = whole > 0.0 ? open / whole : 1.0;
     return vec4(clipped ? visibility : min(2.0 * visibility, 1.0));
