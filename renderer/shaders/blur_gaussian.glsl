@@ -11,7 +11,7 @@ vec4 blurAlong(sampler2D values, ivec2 pixel, ivec2 axis, int stride) {
     if (isEmpty(depth))
         return vec4(1.0);
     float slope =
-        smallerSlope(depthOf((pixel - axis) * stride), depth, depthOf((pixel + axis) * stride));
+        smallerSlope(depthOf(pixel * stride - axis), depth, depthOf(pixel * stride + axis));
     int reach = int(settings.blurRadius);
     float sigma = 0.5 * (float(reach) + 1.0); // HBAO+; gl_ssao has half of reach
     ivec2 last = textureSize(values, 0) - 1;
