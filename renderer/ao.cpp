@@ -23,6 +23,10 @@ bool enabled(const Settings& settings, const Pass& pass) {
     return pass.enabledBy.empty() || settings[pass.enabledBy] >= static_cast<float>(pass.from);
 }
 
+bool widened(const Settings& settings, const Pass& pass) {
+    return !pass.widenedBy.empty() && settings[pass.widenedBy] > 0;
+}
+
 bool computes(const Pass& pass) {
     return pass.stage == Stage::rows || pass.stage == Stage::columns;
 }
@@ -136,11 +140,11 @@ constexpr const char* groupShare = R"(    if (gl_LocalInvocationIndex == 0u)
 )";
 
 std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes writes) {
-    std::string call =
-        fmt::format("vec4 value = {}{}(pixel{});\n", pass.name, level > 0 ? "Level" : "",
-                    pass.layers > 1              ? ", layer"
-                    : pass.stage == Stage::splat ? ", sphere"
-                                                 : "");
+    std::string call = fmt::format("vec4 value = {}{}{}(pixel{});\n", pass.name,
+                                   widened(settings, pass) ? "Wide" : "", level > 0 ? "Level" : "",
+                                   pass.layers > 1              ? ", layer"
+                                   : pass.stage == Stage::splat ? ", sphere"
+                                                                : "");
     if (writes == Writes::fetches) {
         call += computes(pass) ? fmt::format(groupShare, pass.stage == Stage::rows ? "x" : "y")
                                : "    value = vec4(float(fetchCount));\n";
@@ -152,15 +156,16 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
     }
     if (computes(pass)) {
         // Groups of columns lie along x too: llvmpipe fills its vectors from x alone.
-        return fmt::format("{}layout(local_size_x = {}) in;\n"
-                           "layout(binding = 0, {}) uniform writeonly image2D resultImage;\n"
-                           "void main() {{\n    ivec2 pixel = ivec2(gl_GlobalInvocationID.{});\n"
-                           "    {}"
-                           "    if (all(lessThan(pixel, imageSize(resultImage))))\n"
-                           "        imageStore(resultImage, pixel, value);\n}}\n",
-                           writes == Writes::fetches ? "shared int groupFetches;\n" : "", group,
-                           gl::glslName(writes == Writes::fetches ? gl::Format::r32f : pass.format),
-                           pass.stage == Stage::rows ? "xy" : "yx", call);
+        return fmt::format(
+            "{}layout(local_size_x = {}) in;\n"
+            "layout(binding = 0, {}) uniform writeonly image2D resultImage;\n"
+            "void main() {{\n    ivec2 pixel = ivec2(gl_GlobalInvocationID.{});\n"
+            "    {}"
+            "    if (all(lessThan(pixel, imageSize(resultImage))))\n"
+            "        imageStore(resultImage, pixel, value);\n}}\n",
+            writes == Writes::fetches ? "shared int groupFetches;\n" : "", group,
+            gl::glslName(writes == Writes::fetches ? gl::Format::r32f : formatOf(settings, pass)),
+            pass.stage == Stage::rows ? "xy" : "yx", call);
     }
     return fmt::format("{}{}layout(location = 0) out vec4 result;\nvoid main() {{\n    ivec2 pixel "
                        "= ivec2(gl_FragCoord.xy);\n    {}    result = value;\n}}\n",
@@ -176,6 +181,10 @@ std::vector<const Pass*> enabledPasses(const Settings& settings) {
         if (enabled(settings, pass))
             result.push_back(&pass);
     return result;
+}
+
+gl::Format formatOf(const Settings& settings, const Pass& pass) {
+    return widened(settings, pass) ? gl::Format::rgba16f : pass.format;
 }
 
 gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level, Writes writes) {
@@ -221,14 +230,15 @@ double occlusionBytes(const Settings& settings, int width, int height) {
                   down = smaller(smaller(height, factor), pass->scale);
         for (int level = 0; level < pass->levels; ++level)
             bytes += 1.0 * std::max(across >> level, 1) * std::max(down >> level, 1) *
-                     pass->layers * gl::bytesOf(pass->format);
+                     pass->layers * gl::bytesOf(formatOf(settings, *pass));
     }
     if (factor > 1) {
         const double normal =
             settings.technique().reads & normals ? bytesOf(gl::Format::rgba16f) : 0;
-        bytes += 1.0 * smaller(width, factor) * smaller(height, factor) *
-                     (bytesOf(gl::Format::r32f) + normal) +
-                 1.0 * width * height * bytesOf(enabledPasses(settings).back()->format);
+        bytes +=
+            1.0 * smaller(width, factor) * smaller(height, factor) *
+                (bytesOf(gl::Format::r32f) + normal) +
+            1.0 * width * height * bytesOf(formatOf(settings, *enabledPasses(settings).back()));
     }
     return bytes;
 }
@@ -259,12 +269,12 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
       open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
     if (const int factor = downscaleOf(settings); factor > 1) {
-        if (gl::channelsOf(enabledPasses(settings).back()->format) == 4)
+        if (gl::channelsOf(formatOf(settings, *enabledPasses(settings).back())) == 4)
             throw Error(fmt::format("expected downscale = 1 where {} sends light (four channels "
                                     "are not upsampled), found {}",
                                     technique.id, factor));
         reduction_.emplace(factor, technique.reads & normals, width, height,
-                           enabledPasses(settings).back()->format);
+                           formatOf(settings, *enabledPasses(settings).back()));
         width = reduction_->width();
         height = reduction_->height();
     }
@@ -279,7 +289,7 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
             levels = passProgram(settings, pass, 1);
         const auto scaled = [&](int size) { return (size + pass.scale - 1) / pass.scale; };
         steps_.push_back({&pass, passProgram(settings, pass), std::move(levels),
-                          gl::SlicedTarget(scaled(width), scaled(height), pass.format,
+                          gl::SlicedTarget(scaled(width), scaled(height), formatOf(settings, pass),
                                            {pass.levels, pass.layers, pass.scale > 1}, label),
                           own});
     }

@@ -23,6 +23,8 @@ gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 
                         Writes writes = Writes::value);
 // In order; those that settings switch off left out.
 std::vector<const Pass*> enabledPasses(const Settings& settings);
+// What the pass writes under these settings.
+gl::Format formatOf(const Settings& settings, const Pass& pass);
 
 // Pixels that the technique wants rendered beyond each border of an image (guardBand).
 int guardPixels(const Settings& settings, int height);

@@ -68,6 +68,8 @@ struct Pass {
     gl::Format format;
     std::string_view enabledBy = {}; // a flag or count; the pass runs where it is at least `from`
     int from = 1;
+    std::string_view widenedBy = {}; // a flag; where it is set, nameWide(ivec2 pixel) is called in
+                                     // the place of name and its target is rgba16f
     int scale = 1;  // its target has 1 / scale of the width and height, rounded up; pixels are the
                     // target's. Above 1, reading by texture() filters linearly
     int levels = 1; // of detail: the pass gives level 0; vec4 nameLevel(ivec2 pixel) gives each
@@ -163,14 +165,17 @@ constexpr bool wellFormed(const Preset& preset, std::span<const Parameter> param
 }
 
 constexpr bool wellFormed(const Pass& pass, std::span<const Parameter> parameters) {
-    bool found = pass.enabledBy.empty();
-    for (const Parameter& parameter : parameters)
-        found |= parameter.name == pass.enabledBy && isWhole(parameter);
+    const auto known = [&](std::string_view name) {
+        bool found = name.empty();
+        for (const Parameter& parameter : parameters)
+            found |= parameter.name == name && isWhole(parameter);
+        return found;
+    };
     const bool compute = pass.stage == Stage::rows || pass.stage == Stage::columns;
     const bool single = pass.levels == 1 && pass.layers == 1;
     const bool counted = pass.fetches && (pass.levels > 1) == (pass.levelFetches != nullptr);
-    return found && counted && pass.scale >= 1 && pass.levels >= 1 && pass.layers >= 1 &&
-           (single || !compute);
+    return known(pass.enabledBy) && known(pass.widenedBy) && counted && pass.scale >= 1 &&
+           pass.levels >= 1 && pass.layers >= 1 && (single || !compute);
 }
 
 constexpr bool wellFormed(const Technique& technique) {

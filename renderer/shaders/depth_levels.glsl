@@ -20,15 +20,22 @@ vec4 depthsLevel(ivec2 pixel) {
     return vec4(dot(weights, vec4(1.0)) / dot(weights, 1.0 / four));
 }
 
-// Depth for a tap `distance` pixels away from the pixel, and the uv it stands for: the middle of
-// its texel, so that what is read and where it is agree.
-float depthOfTap(ivec2 pixel, float distance, out vec2 uv) {
-    // A level whose texels are longer than the image has no middle inside it.
-    ivec2 size = ivec2(frame.size.xy);
-    int coarsest = min(textureQueryLevels(depthsResult) - 1, findMSB(min(size.x, size.y)));
-    int level = clamp(int(floor(log2(distance) - settings.levelOffset + 0.5)), 0, coarsest);
+// A level whose texels are longer than the image has no middle inside it.
+int coarsestLevel() {
+    return min(textureQueryLevels(depthsResult) - 1,
+               findMSB(min(int(frame.size.x), int(frame.size.y))));
+}
+
+// The whole part of the binary logarithm, which is a float's exponent.
+int levelOf(float scale, int coarsest) {
+    return clamp((floatBitsToInt(scale) >> 23) - 127, 0, coarsest);
+}
+
+// Depth of the level's texel around a pixel, and the uv it stands for: the texel's middle, so that
+// what is read and where it is agree.
+float depthOfTap(ivec2 pixel, int level, out vec2 uv) {
     // Not textureSize(): llvmpipe gives all pixels of a group the size of the first one's level.
-    ivec2 texel = min(pixel >> level, max(size >> level, ivec2(1)) - 1);
+    ivec2 texel = min(pixel >> level, max(ivec2(frame.size.xy) >> level, ivec2(1)) - 1);
     uv = (vec2(texel) + 0.5) * float(1 << level) * frame.size.zw;
     return texelFetch(depthsResult, texel, level).r;
 }

@@ -17,14 +17,21 @@ vec4 edges(ivec2 pixel) {
 
 vec4 edgesOf(ivec2 pixel) { return texelFetch(edgesResult, pixel, 0); }
 
+// What each of 3 x 3 pixels weighs.
+struct Weights {
+    float own;
+    vec4 side;     // left, right, below, above
+    vec4 diagonal; // lower left, lower right, upper left, upper right
+    float sum;
+};
+
 // `last` is the last of the passes: it keeps more of the pixel itself (XeGTAO's 1.2 against 0.24).
-vec4 denoised(sampler2D values, ivec2 pixel, bool last) {
-    if (isEmpty(depthOf(pixel)))
-        return vec4(1.0, 0.0, 0.0, 0.0);
+Weights weightsOf(ivec2 pixel, bool last) {
     ivec2 corner = ivec2(frame.size.xy) - 1;
-    ivec2 left = max(pixel - ivec2(1, 0), 0), right = min(pixel + ivec2(1, 0), corner);
-    ivec2 below = max(pixel - ivec2(0, 1), 0), above = min(pixel + ivec2(0, 1), corner);
-    vec4 l = edgesOf(left), r = edgesOf(right), b = edgesOf(below), a = edgesOf(above);
+    vec4 l = edgesOf(ivec2(max(pixel.x - 1, 0), pixel.y)),
+         r = edgesOf(ivec2(min(pixel.x + 1, corner.x), pixel.y)),
+         b = edgesOf(ivec2(pixel.x, max(pixel.y - 1, 0))),
+         a = edgesOf(ivec2(pixel.x, min(pixel.y + 1, corner.y)));
 
     // An edge that one of two neighbours sees counts for both.
     vec4 side = edgesOf(pixel) * vec4(l.y, r.x, b.w, a.z);
@@ -36,12 +43,41 @@ vec4 denoised(sampler2D values, ivec2 pixel, bool last) {
     vec4 diagonal = 0.425 * vec4(side.x * l.z + side.z * b.x, side.y * r.z + side.z * b.y,
                                  side.x * l.w + side.w * a.x, side.y * r.w + side.w * a.y);
     float own = last ? 1.2 : 0.24;
-    vec4 sum = own * texelFetch(values, pixel, 0);
-    sum += side.x * texelFetch(values, left, 0) + side.y * texelFetch(values, right, 0) +
-           side.z * texelFetch(values, below, 0) + side.w * texelFetch(values, above, 0);
-    sum += diagonal.x * texelFetch(values, ivec2(left.x, below.y), 0) +
-           diagonal.y * texelFetch(values, ivec2(right.x, below.y), 0) +
-           diagonal.z * texelFetch(values, ivec2(left.x, above.y), 0) +
-           diagonal.w * texelFetch(values, ivec2(right.x, above.y), 0);
-    return sum / (own + dot(side + diagonal, vec4(1.0)));
+    return Weights(own, side, diagonal, own + dot(side + diagonal, vec4(1.0)));
+}
+
+// Of what has one channel. Texels come by four around the pixel's corners, in the order of
+// textureGather: upper left, upper right, lower right, lower left.
+vec4 denoised(sampler2D values, ivec2 pixel, bool last) {
+    if (isEmpty(depthOf(pixel)))
+        return vec4(1.0);
+    Weights weights = weightsOf(pixel, last);
+    vec2 low = vec2(pixel) * frame.size.zw, high = vec2(pixel + 1) * frame.size.zw;
+    vec4 lowerLeft = textureGather(values, low),
+         lowerRight = textureGather(values, vec2(high.x, low.y)),
+         upperLeft = textureGather(values, vec2(low.x, high.y)),
+         upperRight = textureGather(values, high);
+    vec4 side = vec4(lowerLeft.x, lowerRight.y, lowerLeft.z, upperLeft.y);
+    vec4 diagonal = vec4(lowerLeft.w, lowerRight.z, upperLeft.x, upperRight.y);
+    return vec4(
+        (weights.own * lowerLeft.y + dot(weights.side, side) + dot(weights.diagonal, diagonal)) /
+        weights.sum);
+}
+
+// Of what has four, and is 0 but for red where nothing is seen.
+vec4 denoisedAll(sampler2D values, ivec2 pixel, bool last) {
+    if (isEmpty(depthOf(pixel)))
+        return vec4(1.0, 0.0, 0.0, 0.0);
+    Weights weights = weightsOf(pixel, last);
+    ivec2 low = max(pixel - 1, 0), high = min(pixel + 1, ivec2(frame.size.xy) - 1);
+    vec4 sum = weights.own * texelFetch(values, pixel, 0);
+    sum += weights.side.x * texelFetch(values, ivec2(low.x, pixel.y), 0) +
+           weights.side.y * texelFetch(values, ivec2(high.x, pixel.y), 0) +
+           weights.side.z * texelFetch(values, ivec2(pixel.x, low.y), 0) +
+           weights.side.w * texelFetch(values, ivec2(pixel.x, high.y), 0);
+    sum += weights.diagonal.x * texelFetch(values, low, 0) +
+           weights.diagonal.y * texelFetch(values, ivec2(high.x, low.y), 0) +
+           weights.diagonal.z * texelFetch(values, ivec2(low.x, high.y), 0) +
+           weights.diagonal.w * texelFetch(values, high, 0);
+    return sum / weights.sum;
 }

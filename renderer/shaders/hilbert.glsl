@@ -3,16 +3,15 @@
 // near in the sequence, whose successive members are spread evenly (XeGTAO).
 
 uint hilbertIndex(ivec2 pixel) {
-    uvec2 p = uvec2(pixel) & 63u;
+    uvec2 p = uvec2(pixel);
     uint index = 0u;
-    for (uint level = 32u; level > 0u; level >>= 1u) {
-        uvec2 upper = uvec2((p.x & level) > 0u, (p.y & level) > 0u);
-        index += level * level * ((3u * upper.x) ^ upper.y);
-        if (upper.y == 0u) { // turn the quadrant to where the curve enters it
-            if (upper.x == 1u)
-                p = 63u - p;
-            p = p.yx;
-        }
+    for (int level = 5; level >= 0; --level) {
+        uvec2 upper = (p >> level) & 1u;
+        index = 4u * index + ((3u * upper.x) ^ upper.y);
+        // Turn the quadrant to where the curve enters it; only lower bits matter from here on.
+        p ^= 0u - (upper.x & ~upper.y);
+        uint swap = (p.x ^ p.y) & (upper.y - 1u);
+        p ^= swap;
     }
     return index;
 }
@@ -24,4 +23,5 @@ uvec2 hilbertBits(ivec2 pixel) {
     return index * uvec2(3242174889u, 2447445414u); // 2^32 / 1.3247, 2^32 / 1.3247^2
 }
 
-vec2 hilbertNoise(ivec2 pixel) { return vec2(hilbertBits(pixel) >> 8u) * (1.0 / 16777216.0); }
+vec2 hilbertFloats(uvec2 bits) { return vec2(bits >> 8u) * (1.0 / 16777216.0); }
+vec2 hilbertNoise(ivec2 pixel) { return hilbertFloats(hilbertBits(pixel)); }

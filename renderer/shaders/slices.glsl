@@ -11,148 +11,184 @@
 // widely in weight, l (cos g + g sin g), which is noise, and a pixel of few slices may exceed 1. We
 // draw slices in proportion to that weight and divide it out, which has the same limit; a plane,
 // and a point fully enclosed, are then exact with a single slice. The distribution's integral is
-// closed (sliceShare), and two Newton steps invert it to 1e-5.
+// closed; azimuthOf inverts it to 1.4e-3.
+//
+// Sines and cosines come from vectors; the only transcendental function of angles is arcCosine.
+// Loops over slices and steps test at their end: llvmpipe runs the body of one that tests first
+// once more, masked, which took a quarter of the time.
 
 #include "depth_levels.glsl"
 #include "hilbert.glsl"
 
 const float pi = 3.14159265;
 
+// Abramowitz and Stegun, formula 4.4.45: good to 6.7e-5. arcCosine(-x) = pi - arcCosine(x), so that
+// opposite angles make up pi and a plane stays open.
+float arcCosine(float x) {
+    float y = abs(x);
+    float angle =
+        sqrt(max(1.0 - y, 0.0)) * (1.5707288 + y * (-0.2121144 + y * (0.0742610 - y * 0.0187293)));
+    return x < 0.0 ? pi - angle : angle;
+}
+
 // The pixel, and the frame that its slices stand in.
 struct Point {
     ivec2 pixel;
-    vec3 position, normal, view; // view: towards the camera
-    vec3 tilt, across;           // with the view orthogonal; the normal lies between view and tilt
-    float cosine, sine;          // of the angle between normal and view
+    vec3 position, view; // view: towards the camera
+    vec3 tilt, across;   // with the view orthogonal; the normal lies between view and tilt
+    float cosine, sine;  // of the angle between normal and view
+    float start;         // azimuth of a direction that all pixels share, from the tilt
+    float reach;         // metres across the view to a sphere of the radius's silhouette
+    vec2 pixelsPerView;  // of x / z and y / z in view space
+    float levelScale;    // of pixels along a march: 1 ends level 0
+    int coarsest;        // level
 };
 
+// Both sides of a slice. Angles are positive on the side that `side` points to.
 struct Slice {
-    vec3 side;    // unit, across the view: where angles are positive
-    vec3 along;   // for moving taps into the slice
-    vec3 axis;    // unit, across the slice
-    float turn;   // g
-    float weight; // cos g + g sin g: the open integral, less l
+    vec3 side;              // unit, across the view
+    vec3 upwards, sideways; // a tap's offset in the slice is its products with these
+    float turn;             // g
+    float cosine, sine;     // of g
+    float perWeight;        // 1 / (cos g + g sin g): over the open integral, less l
+    vec2 step;              // pixels; one long
 };
 
 Point pointOf(ivec2 pixel, float depth) {
     Point p;
     p.pixel = pixel;
     p.position = viewPosition(uvOf(pixel), depth);
-    p.view = -normalize(p.position);
+    float nearness = inversesqrt(dot(p.position, p.position));
+    p.view = -p.position * nearness;
     // Interpolated normals may face away from the camera; slices need one that does not.
     vec3 normal = texelFetch(normalBuffer, pixel, 0).xyz;
-    p.normal = normalize(normal + p.view * max(0.0, 2e-3 - dot(normal, p.view)));
-    p.cosine = clamp(dot(p.normal, p.view), 1e-3, 1.0);
-    vec3 tilt = p.normal - p.view * p.cosine;
+    normal = normalize(normal + p.view * max(0.0, 2e-3 - dot(normal, p.view)));
+    p.cosine = clamp(dot(normal, p.view), 1e-3, 1.0);
+    vec3 tilt = normal - p.view * p.cosine;
     vec3 other = abs(p.view.x) < 0.7 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
     p.tilt = normalize(dot(tilt, tilt) > 1e-8 ? tilt : cross(p.view, other));
     p.across = cross(p.view, p.tilt);
     p.sine = sqrt(1.0 - p.cosine * p.cosine);
+    float start = arcCosine(
+        p.tilt.x *
+        inversesqrt(max(dot(vec2(p.tilt.x, p.across.x), vec2(p.tilt.x, p.across.x)), 1e-12)));
+    p.start = p.across.x < 0.0 ? -start : start;
+    float share = settings.radius * nearness;
+    p.reach = settings.radius * inversesqrt(max(1.0 - share * share, 0.01));
+    p.pixelsPerView = frame.size.xy / frame.viewFromUv.xy;
+    p.levelScale = exp2(0.5 - settings.levelOffset);
+    p.coarsest = coarsestLevel();
     return p;
 }
 
-// Of the cosine-weighted hemisphere, pi times the share in slices at azimuths 0 to phi from the
-// tilt, and its derivative: the integral of l (cos g + g sin g) with l cos g = c, l sin g = s cos
-// phi, by parts.
-float sliceShare(Point p, float phi) {
-    return atan(p.cosine * sin(phi), cos(phi)) +
-           p.sine * sin(phi) * atan(p.sine * cos(phi), p.cosine);
-}
-float sliceDensity(Point p, float phi) {
-    return p.cosine + p.sine * cos(phi) * atan(p.sine * cos(phi), p.cosine);
-}
-
-// 0 <= share < pi. The halves either side of pi/2 mirror each other; the start is exact for a
-// surface seen face on and edge on.
-float azimuthOf(Point p, float share) {
+// Cosine and sine of the azimuth phi up to which slices hold `share` (0 <= share < pi) of pi times
+// the cosine-weighted hemisphere. With l cos g = c, l sin g = s cos phi, by parts,
+//   share = Int_0^phi l (cos g + g sin g) = acos(cos phi / l) + g s sin phi.
+// The halves either side of pi/2 mirror each other. One Newton step from a start, exact for
+// surfaces seen face on and edge on, whose sine lies between that of the share and a straight line.
+vec2 azimuthOf(Point p, float share) {
     float x = min(share, pi - share);
-    float sine2 = p.sine * p.sine;
-    float phi = mix(x, asin(min(x * 2.0 / pi, 1.0)), sine2 * sine2);
-    for (int i = 0; i < 2; ++i)
-        phi = clamp(phi + (x - sliceShare(p, phi)) / sliceDensity(p, phi), 0.0, 0.5 * pi);
-    return share > 0.5 * pi ? pi - phi : phi;
+    float u = x * (2.0 / pi), u2 = u * u, v = 1.0 - p.cosine;
+    float bend = u * (0.5707963 +
+                      u2 * (-0.6459641 + u2 * (0.0796926 + u2 * -0.0046818 + u2 * u2 * 0.0001604)));
+    float blend = 1.0 + v * (-2.6245 + 1.6342 * v + u2 * (2.8999 - 2.9967 * v));
+    float sine = min(u + bend * blend, 1.0);
+    float cosine = sqrt(1.0 - sine * sine);
+    float tilted = p.sine * cosine;
+    float perLength = inversesqrt(p.cosine * p.cosine + tilted * tilted);
+    float turn = 0.5 * pi - arcCosine(tilted * perLength);
+    float reached = arcCosine(min(cosine * perLength, 1.0)) + p.sine * sine * turn;
+    float further = (x - reached) / (p.cosine + tilted * turn);
+    vec2 azimuth =
+        vec2(cosine - sine * further, sine + cosine * further) * (1.0 - 0.5 * further * further);
+    return share > 0.5 * pi ? vec2(-azimuth.x, azimuth.y) : azimuth;
 }
 
 // `turn` in [0, 1): even turns about the view from a direction that all pixels share, so that the
 // noise's pattern survives where surfaces face the camera.
-Slice sliceOf(Point p, float turn) {
-    vec3 reference = vec3(1.0, 0.0, 0.0) - p.view * p.view.x;
-    float start = atan(dot(reference, p.across), dot(reference, p.tilt));
-    float phi = azimuthOf(p, mod(turn * pi + start, pi));
-    Slice slice;
-    slice.side = cos(phi) * p.tilt + sin(phi) * p.across;
-    slice.axis = cross(p.view, slice.side);
-    float outwards = dot(p.normal, slice.axis);
-    slice.along = (slice.axis - p.normal * outwards) / max(1.0 - outwards * outwards, 1e-6);
-    slice.turn = atan(dot(p.normal, slice.side), p.cosine);
-    slice.weight = cos(slice.turn) + slice.turn * sin(slice.turn);
-    return slice;
-}
-
-// Int_0^a cos(t - turn) sin t dt: of a slice's open integral, the part nearer than `a` to the view
-// on one side. `turn` counts towards that side. The sines and cosines are a's.
-float arcWeight(float a, vec2 cosineSine, float turn) {
-    float twice = cosineSine.x * cosineSine.x - cosineSine.y * cosineSine.y;
-    float twiceSine = 2.0 * cosineSine.x * cosineSine.y;
-    return 0.25 * (cos(turn) * (1.0 - twice) + sin(turn) * (2.0 * a - twiceSine));
-}
-// Up to the surface's own plane, where a = turn + pi/2.
-float sideWeight(float turn) { return 0.5 * cos(turn) + (0.5 * turn + 0.25 * pi) * sin(turn); }
-
-// One side of a slice on the screen.
-struct March {
-    vec2 start, step; // pixels; `step` is one long
-    float reach;      // pixels; below 1: nothing to see
-};
-
-// As far as a sphere of the radius can be seen, exactly: its silhouette lies at asin(radius /
-// distance) from the view. And no farther than the screen, beyond which nothing is known: that is
-// open.
-March marchOf(Point p, vec3 side) {
-    float depth = -p.position.z;
-    March march;
-    march.start = vec2(p.pixel) + 0.5;
-    vec2 direction = (side.xy * depth + p.position.xy * side.z) / frame.viewFromUv.xy;
-    march.step = normalize(direction * frame.size.xy);
-    float share = settings.radius / length(p.position);
-    vec3 end = p.position + side * settings.radius * inversesqrt(max(1.0 - share * share, 0.01));
-    march.reach =
-        -end.z > frame.depth.x ? distance(uvFromView(end) * frame.size.xy, march.start) : 1e6;
-    vec2 room = mix(march.start, frame.size.xy - march.start, greaterThan(march.step, vec2(0.0))) /
-                max(abs(march.step), 1e-6);
-    march.reach = min(march.reach, min(room.x, room.y));
-    return march;
-}
-
-// A tap's surface as seen from the point.
-struct Tap {
-    vec2 offset;    // towards the view, towards the side; in the slice
-    float distance; // metres, in space
-    float along;    // metres along the view, in space
-};
-
-// `place` in [0, 1) along the march. False: there is nothing to see.
 //
 // Taps are middles of pixels and lie a little beside the slice. Departure: instead of taking their
 // angle as it is, they are moved into the slice parallel to the point's own plane, which keeps
 // their height above it. A plane then never occludes itself, at whatever angle it is seen, and no
 // bias is needed.
-bool tapAt(Point p, Slice slice, March march, float place, vec3 side, out Tap tap) {
-    float pixels = mix(1.0, march.reach, pow(place, settings.samplePower));
-    ivec2 pixel =
-        clamp(ivec2(floor(march.start + march.step * pixels)), ivec2(0), ivec2(frame.size.xy) - 1);
+Slice sliceOf(Point p, float turn) {
+    vec2 azimuth = azimuthOf(p, mod(turn * pi + p.start, pi));
+    Slice slice;
+    slice.side = azimuth.x * p.tilt + azimuth.y * p.across;
+    vec3 axis = azimuth.x * p.across - azimuth.y * p.tilt;
+    float tilted = p.sine * azimuth.x;
+    float perLength = inversesqrt(p.cosine * p.cosine + tilted * tilted);
+    slice.cosine = p.cosine * perLength;
+    slice.sine = tilted * perLength;
+    slice.turn = 0.5 * pi - arcCosine(slice.sine);
+    slice.perWeight = 1.0 / (slice.cosine + slice.turn * slice.sine);
+    vec3 outwards = axis * (-p.sine * azimuth.y * perLength); // the normal's, over l
+    slice.upwards = p.view + outwards * slice.cosine;
+    slice.sideways = slice.side + outwards * slice.sine;
+    vec2 direction = slice.side.xy * -p.position.z + p.position.xy * slice.side.z;
+    slice.step = normalize(direction * p.pixelsPerView);
+    return slice;
+}
+
+// Int_0^a cos(t - turn) sin t dt: of a slice's open integral, the part nearer than `a` to the view
+// on one side. `turn` counts towards that side; both come with their cosine and sine.
+float arcWeight(float a, vec2 ofA, vec2 ofTurn) {
+    float twice = 2.0 * ofA.y;
+    return 0.25 * (ofTurn.x * ofA.y * twice + ofTurn.y * (2.0 * a - ofA.x * twice));
+}
+// Up to the surface's own plane, where a = turn + pi/2.
+float sideWeight(float turn, vec2 ofTurn) {
+    return 0.5 * ofTurn.x + (0.5 * turn + 0.25 * pi) * ofTurn.y;
+}
+
+// Pixels along `step` to where `end` is seen.
+float reachTo(Point p, vec3 end, vec2 step) {
+    vec2 moved = end.xy / max(-end.z, frame.depth.x) + p.position.xy / p.position.z;
+    return -end.z > frame.depth.x ? dot(moved * p.pixelsPerView, step) : 1e6;
+}
+
+// Pixels along both sides of a slice, first the one that `side` points to, as far as a sphere of
+// the radius can be seen, exactly: its silhouette lies at asin(radius / distance) from the view.
+// And no farther than the screen, beyond which nothing is known: that is open. Below 1: nothing to
+// see.
+vec2 reachesOf(Point p, Slice slice) {
+    vec3 across = slice.side * p.reach;
+    vec2 reaches = vec2(reachTo(p, p.position + across, slice.step),
+                        reachTo(p, p.position - across, -slice.step));
+    vec2 start = vec2(p.pixel) + 0.5, perStep = 1.0 / max(abs(slice.step), 1e-6);
+    vec2 low = start * perStep, high = (frame.size.xy - start) * perStep;
+    bvec2 up = greaterThan(slice.step, vec2(0.0));
+    vec2 ahead = mix(low, high, up), behind = mix(high, low, up);
+    return min(reaches, vec2(min(ahead.x, ahead.y), min(behind.x, behind.y)));
+}
+
+// A tap's surface as seen from the point.
+struct Tap {
+    vec2 offset;    // towards the view, towards the side; in the slice
+    float distance; // metres, squared
+    float along;    // metres along the view, in space
+    bool seen;      // false: there is nothing
+};
+
+// `direction`: 1 on the side that `side` points to, else -1. `place` in [0, 1) is how far along it,
+// samplePower applied.
+Tap tapAt(Point p, Slice slice, float direction, float reach, float place) {
+    float pixels = mix(1.0, reach, place);
+    vec2 exact = vec2(p.pixel) + 0.5 + slice.step * (direction * pixels);
+    ivec2 pixel = clamp(ivec2(floor(exact)), ivec2(0), ivec2(frame.size.xy) - 1);
     vec2 uv;
-    float depth = depthOfTap(pixel, pixels, uv);
+    float depth = depthOfTap(pixel, levelOf(pixels * p.levelScale, p.coarsest), uv);
     vec3 offset = viewPosition(uv, depth) - p.position;
-    tap.distance = length(offset);
+    Tap tap;
+    tap.distance = dot(offset, offset);
     tap.along = dot(offset, p.view);
-    vec3 moved = offset - dot(offset, slice.axis) * slice.along;
-    tap.offset = vec2(dot(moved, p.view), dot(moved, side));
-    return !isEmpty(depth) && tap.offset.y > 0.0;
+    tap.offset = vec2(dot(offset, slice.upwards), direction * dot(offset, slice.sideways));
+    tap.seen = reach >= 1.0 && !isEmpty(depth) && tap.offset.y > 0.0;
+    return tap;
 }
 
 // Where the tap `step` of a slice goes: an even stratum each, jittered anew by the golden ratio.
 float tapPlace(float noise, int slice, int step) {
     float jitter = fract(noise + 0.618033989 * float(slice + step * int(settings.steps)));
-    return (float(step) + jitter) / settings.steps;
+    return pow((float(step) + jitter) / settings.steps, settings.samplePower);
 }

@@ -30,11 +30,19 @@ Scene roomScene() {
     return scene;
 }
 
+// Face on, all that is seen.
+Scene wallScene() {
+    Scene scene;
+    addQuad(scene,
+            {glm::vec3(-9, -9, 0), glm::vec3(9, -9, 0), glm::vec3(9, 9, 0), glm::vec3(-9, 9, 0)});
+    return scene;
+}
+
 // That room as techniques see it, with one sphere for its block.
 class Room {
   public:
-    Room(int width, int height)
-        : width_(width), height_(height), scene_(roomScene()),
+    Room(int width, int height, const Scene& scene = roomScene())
+        : width_(width), height_(height), scene_(scene),
           frame_(makeFrame(camera(), width, height, scene_.bounds(), 1)),
           frameBlock_(frameBuffer(frame_)),
           lighting_(whiteLight(), scene_, std::filesystem::path()),
@@ -128,7 +136,10 @@ TEST_F(GlTest, PassesFetchWhatTheyDeclareWithOtherSettings) {
         {"vao", {{"downscale", 2}}},
         {"multi_scale", {{"blur", 0}, {"steps", 2}}},
         {"gtao", {{"denoise", 0}, {"bentNormals", 1}, {"steps", 5}}},
+        {"gtao", {{"denoise", 3}, {"bentNormals", 1}}},
+        {"gtao", {{"adaptive", 1}}},
         {"visibility_bitmask", {{"denoise", 3}, {"slices", 2}}},
+        {"visibility_bitmask", {{"adaptive", 1}, {"slices", 2}}},
         {"alchemy", {{"samples", 7}, {"blurRadius", 32}}},
         {"sao", {{"samples", 24}, {"mipOffset", 0}}},
         {"volumetric_obscurance", {{"samples", 4}, {"clipByNormal", 0}}},
@@ -151,6 +162,19 @@ TEST_F(GlTest, PassesFetchWhatTheyDeclareWithOtherSettings) {
         for (const PresetValue& given : values)
             settings.set(given.name, static_cast<double>(given.value));
         expectDeclared(room, settings);
+    }
+}
+
+// Of what the row declares, a single slice where all is open.
+TEST_F(GlTest, AdaptiveSlicesAreSparedOnAWall) {
+    const Room wall(64, 64, wallScene());
+    for (const char* id : {"gtao", "visibility_bitmask"}) {
+        Settings settings(technique(id));
+        settings.set("adaptive", 1);
+        for (const FetchCount& count : wall.count(settings))
+            if (count.pass->name == "gather")
+                EXPECT_EQ(count.most,
+                          count.declared - 2 * (settings["slices"] - 1) * settings["steps"]);
     }
 }
 

@@ -147,6 +147,15 @@ TEST_F(SlicesLimits, BitmaskBesideAFloatingBar) {
     }
 }
 
+TEST_F(SlicesLimits, AdaptiveSlicesHaveTheSameLimit) {
+    for (const char* id : {"gtao", "visibility_bitmask"}) {
+        Settings settings = exact(id);
+        settings.set("adaptive", 1);
+        for (const auto& [curb, expected] : {std::pair(curbs[0], 0.2676), {curbs[2], 0.2760}})
+            EXPECT_NEAR(besideCurb(curb, settings), expected, 0.01) << id << curb.distance;
+    }
+}
+
 // Seen obliquely: a wall at x = 0 of height h, 2 l long, and a floor point at distance d. The view
 // factor of a rectangle at right angles to the point's own plane is
 //   O = (atan(l / d) - d / e atan(l / e)) / pi,  e^2 = d^2 + h^2.

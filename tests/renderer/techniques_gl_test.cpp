@@ -50,6 +50,8 @@ double affordable(const Parameter& parameter, float value) {
 
 // Settings that do something only while another is switched on.
 void switchOnFor(Settings& settings, std::string_view name) {
+    if (name == "adaptiveRange")
+        settings.set("adaptive", 1);
     if (settings.technique().id == "vao_plus_plus") {
         if (name == "blurSize" || name == "blurDeviation")
             settings.set("blur", 2);

@@ -12,70 +12,125 @@
 // is left out. Power is applied after denoising, and so is the minimum visibility.
 //
 // Limit with a hard radius (falloff 0): the cosine-weighted share of directions above the horizon,
-// the highest thing within the radius, slice by slice. Beside a curb of height h at distance d, seen
-// from above, with tan a = d / (h cos phi) where the rim is within the radius, and pi/2 elsewhere:
+// the highest thing within the radius, slice by slice. Beside a curb of height h at distance d,
+// seen from above, with tan a = d / (h cos phi) where the rim is within the radius, and pi/2
+// elsewhere:
 //   visibility = 1 - (mean over 0 < phi < pi/2 of cos^2 a) / 2
 // (occlusion 0.2676, 0.1273, 0.2760, 0 for the curbs of sheet A.3). It differs from ray-tracing the
-// depth buffer as a height field only where the rim lies beyond the radius. With falloff, each tap's
-// cosine c becomes mix(cosine of the plane, c, weight) before the maximum is taken.
+// depth buffer as a height field only where the rim lies beyond the radius. With falloff, each
+// tap's cosine c becomes mix(cosine of the plane, c, weight) before the maximum is taken.
 
+#include "adaptive.glsl"
 #include "edges.glsl"
 #include "slices.glsl"
 
 // Int_0^a of cos(t - turn) sin t times sin t and cos t: how far directions up to `a` lean to the
-// side and to the view. Their sum over both sides is a slice's share of the bent normal.
-vec2 arcLean(float a, float turn) {
-    return vec2(6.0 * sin(a - turn) - sin(3.0 * a - turn) - 3.0 * sin(a + turn) + 8.0 * sin(turn),
-                4.0 * cos(turn) - cos(3.0 * a - turn) - 3.0 * cos(a + turn)) /
+// side and to the view. Their sum over both sides is a slice's share of the bent normal. Angles are
+// given by cosine and sine.
+vec2 arcLean(vec2 ofA, vec2 ofTurn) {
+    vec2 parts = ofA * ofTurn.yx; // cos a sin t, sin a cos t
+    float cosines = ofA.x * ofTurn.x, sines = ofA.y * ofTurn.y;
+    float square = 4.0 * ofA.x * ofA.x;
+    float tripleSine = parts.y * (square - 1.0) - parts.x * (square - 3.0);
+    float tripleCosine = cosines * (square - 3.0) + sines * (square - 1.0);
+    return vec2(6.0 * (parts.y - parts.x) - tripleSine - 3.0 * (parts.y + parts.x) + 8.0 * ofTurn.y,
+                4.0 * ofTurn.x - tripleCosine - 3.0 * (cosines - sines)) /
            12.0;
 }
 
-// Visibility, and the mean open direction (view space; cosine-weighted, so of length 2/3 when all
-// is open).
-vec4 gather(ivec2 pixel) {
+// A tap's cosine of the angle from the view, faded towards the plane's.
+float faded(Tap tap, float plane) {
+    float stretch = (1.0 + settings.thinOccluder) * (1.0 + settings.thinOccluder) - 1.0;
+    float distance = sqrt(tap.distance + stretch * tap.along * tap.along);
+    float fade = settings.radius * max(settings.falloff, 1e-4);
+    float weight = clamp((settings.radius - distance) / fade, 0.0, 1.0);
+    float cosine = tap.offset.x * inversesqrt(max(dot(tap.offset, tap.offset), 1e-30));
+    return tap.seen ? mix(plane, cosine, weight) : plane;
+}
+
+// The cosines of the angles from the view to the highest thing on both sides of a slice; cos(turn +
+// pi/2) where that is the surface's own plane.
+vec2 horizonsOf(Point p, Slice slice, float noise, int index) {
+    vec2 plane = vec2(-slice.sine, slice.sine), horizons = plane, reaches = reachesOf(p, slice);
+    int j = 0;
+    do {
+        float place = tapPlace(noise, index, j);
+        Tap ahead = tapAt(p, slice, 1.0, reaches.x, place);
+        Tap behind = tapAt(p, slice, -1.0, reaches.y, place);
+        horizons = max(horizons, vec2(faded(ahead, plane.x), faded(behind, plane.y)));
+    } while (++j < int(settings.steps));
+    return horizons;
+}
+
+// What one side of a slice adds to visibility and, as a vector in view space, to the mean open
+// direction.
+float openOf(Slice slice, float direction, vec2 horizon) {
+    return arcWeight(arcCosine(horizon.x), horizon, vec2(slice.cosine, direction * slice.sine));
+}
+vec3 leanOf(Point p, Slice slice, float direction, vec2 horizon) {
+    vec2 lean = arcLean(horizon, vec2(slice.cosine, direction * slice.sine));
+    return lean.x * direction * slice.side + lean.y * p.view;
+}
+
+// The minimum is one of the final visibility, 1 - intensity (1 - v) to the power: what v gives it?
+float atLeastMinimum(float v) {
+    float least = pow(settings.minimumVisibility, 1.0 / settings.power);
+    return max(v, 1.0 - (1.0 - least) / max(settings.intensity, 1e-6));
+}
+
+// Visibility, and where bent normals are asked for the mean open direction (view space;
+// cosine-weighted, so of length 2/3 when all is open).
+vec4 openOver(ivec2 pixel, int sliceCount, bool bent) {
     float depth = depthOf(pixel);
     if (isEmpty(depth))
         return vec4(1.0, 0.0, 0.0, 0.0);
     Point p = pointOf(pixel, depth);
     vec2 noise = hilbertNoise(pixel);
-    int sliceCount = int(settings.slices), steps = int(settings.steps);
-    float fade = settings.radius * max(settings.falloff, 1e-4);
-    float stretch = (1.0 + settings.thinOccluder) * (1.0 + settings.thinOccluder) - 1.0;
-
-    float visibility = 0.0;
-    vec3 bent = vec3(0.0);
-    for (int i = 0; i < sliceCount; ++i) {
+    vec4 sum = vec4(0.0);
+    int i = 0;
+    do {
         Slice slice = sliceOf(p, (float(i) + noise.x) / float(sliceCount));
-        for (float direction = -1.0; direction < 2.0; direction += 2.0) {
-            vec3 side = direction * slice.side;
-            float turn = direction * slice.turn;
-            March march = marchOf(p, side);
-            float plane = -sin(turn); // cosine of the angle turn + pi/2
-            float horizon = plane;
-            for (int j = 0; j < steps && march.reach >= 1.0; ++j) {
-                Tap tap;
-                if (!tapAt(p, slice, march, tapPlace(noise.y, i, j), side, tap))
-                    continue;
-                float distance =
-                    sqrt(tap.distance * tap.distance + stretch * tap.along * tap.along);
-                float weight = clamp((settings.radius - distance) / fade, 0.0, 1.0);
-                horizon = max(horizon, mix(plane, tap.offset.x / length(tap.offset), weight));
-            }
-            float sine = sqrt(max(1.0 - horizon * horizon, 0.0));
-            float a = atan(sine, horizon); // acos() of software drivers is good to 3e-4 only
-            visibility += arcWeight(a, vec2(horizon, sine), turn) / slice.weight;
-            vec2 lean = arcLean(a, turn) / slice.weight;
-            bent += settings.bentNormals * (lean.x * side + lean.y * p.view);
-        }
-    }
-    return vec4(visibility, bent) / float(sliceCount);
+        vec2 horizons = horizonsOf(p, slice, noise.y, i);
+        vec2 sines = sqrt(max(1.0 - horizons * horizons, 0.0));
+        vec2 ahead = vec2(horizons.x, sines.x), behind = vec2(horizons.y, sines.y);
+        sum.x += slice.perWeight * (openOf(slice, 1.0, ahead) + openOf(slice, -1.0, behind));
+        if (bent)
+            sum.yzw +=
+                slice.perWeight * (leanOf(p, slice, 1.0, ahead) + leanOf(p, slice, -1.0, behind));
+    } while (++i < sliceCount);
+    return sum / float(sliceCount);
 }
 
-vec4 denoiseOnce(ivec2 pixel) { return denoised(gatherResult, pixel, settings.denoise < 1.5); }
-vec4 denoiseTwice(ivec2 pixel) {
-    return denoised(denoiseOnceResult, pixel, settings.denoise < 2.5);
+vec4 survey(ivec2 block) { return openOver(middleOf(block), 1, false); }
+vec4 counts(ivec2 block) { return vec4(slicesFor(surveyResult, block)); }
+
+vec4 bounded(vec4 open, bool last) { return last ? vec4(atLeastMinimum(open.r), open.gba) : open; }
+vec4 gathered(ivec2 pixel, bool bent) {
+    return bounded(openOver(pixel, slicesOf(countsResult, pixel), bent), settings.denoise < 0.5);
 }
-vec4 denoiseThrice(ivec2 pixel) { return denoised(denoiseTwiceResult, pixel, true); }
+vec4 gather(ivec2 pixel) { return gathered(pixel, false); }
+vec4 gatherWide(ivec2 pixel) { return gathered(pixel, true); }
+
+vec4 denoiseOnce(ivec2 pixel) {
+    bool last = settings.denoise < 1.5;
+    return bounded(denoised(gatherResult, pixel, last), last);
+}
+vec4 denoiseOnceWide(ivec2 pixel) {
+    bool last = settings.denoise < 1.5;
+    return bounded(denoisedAll(gatherResult, pixel, last), last);
+}
+vec4 denoiseTwice(ivec2 pixel) {
+    bool last = settings.denoise < 2.5;
+    return bounded(denoised(denoiseOnceResult, pixel, last), last);
+}
+vec4 denoiseTwiceWide(ivec2 pixel) {
+    bool last = settings.denoise < 2.5;
+    return bounded(denoisedAll(denoiseOnceResult, pixel, last), last);
+}
+vec4 denoiseThrice(ivec2 pixel) { return bounded(denoised(denoiseTwiceResult, pixel, true), true); }
+vec4 denoiseThriceWide(ivec2 pixel) {
+    return bounded(denoisedAll(denoiseTwiceResult, pixel, true), true);
+}
 
 vec4 denoisedGather(ivec2 pixel) {
     if (settings.denoise < 0.5)
@@ -86,19 +141,13 @@ vec4 denoisedGather(ivec2 pixel) {
                                   : texelFetch(denoiseThriceResult, pixel, 0);
 }
 
-// The minimum is one of the final visibility, 1 - intensity (1 - v) to the power: what v gives it?
-vec4 visibility(ivec2 pixel) {
-    float least = pow(settings.minimumVisibility, 1.0 / settings.power);
-    float v = denoisedGather(pixel).r;
-    return vec4(max(v, 1.0 - (1.0 - least) / max(settings.intensity, 1e-6)));
-}
-
 // What the ambient light, which the composite takes from the normal's side, lacks of the light
 // around the mean open direction. Both times the final visibility, so that the sum is never
 // negative.
 vec4 bentLight(ivec2 pixel) {
-    float v = texelFetch(visibilityResult, pixel, 0).r;
-    vec3 bent = denoisedGather(pixel).gba;
+    vec4 denoised = denoisedGather(pixel);
+    float v = denoised.r;
+    vec3 bent = denoised.gba;
     if (isEmpty(depthOf(pixel)) || dot(bent, bent) < 1e-12)
         return vec4(v, vec3(0.0));
     mat3 worldFromView = mat3(frame.worldFromView);
