@@ -123,7 +123,8 @@ TEST_F(FailureScenes, PixelsBeyondTheBorderAreTheGuardBands) {
     wide.set("guardBand", 0.25); // 27 pixels
     narrow.set("guardBand", 0);
     const Image expected = view.probe().visibility(wide);
-    const Image found = view.probe().visibility(narrow, view.probe().passesFor(narrow, 27), 27);
+    OcclusionPasses passes = view.probe().passesFor(narrow, 27);
+    const Image found = view.probe().visibility(narrow, passes, 27);
     EXPECT_EQ(found.pixels, expected.pixels);
     EXPECT_NE(view.probe().visibility(narrow).pixels, expected.pixels);
 }

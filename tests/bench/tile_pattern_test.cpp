@@ -17,7 +17,7 @@ Image synthetic(double wave, int period, double noise) {
     Random random(7, "grain");
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
-            const double phase = 2 * std::numbers::pi * x / period;
+            const double phase = 2 * std::numbers::pi * (x + y) / period;
             image.pixels.push_back(static_cast<float>(
                 0.3 + 0.004 * (x - y) + wave * std::cos(phase) + noise * random.normal()));
         }

@@ -171,10 +171,12 @@ TEST_F(GlTest, AdaptiveSlicesAreSparedOnAWall) {
     for (const char* id : {"gtao", "visibility_bitmask"}) {
         Settings settings(technique(id));
         settings.set("adaptive", 1);
-        for (const FetchCount& count : wall.count(settings))
-            if (count.pass->name == "gather")
-                EXPECT_EQ(count.most,
-                          count.declared - 2 * (settings["slices"] - 1) * settings["steps"]);
+        for (const FetchCount& count : wall.count(settings)) {
+            if (count.pass->name != "gather")
+                continue;
+            EXPECT_EQ(count.most,
+                      count.declared - 2 * (settings["slices"] - 1) * settings["steps"]);
+        }
     }
 }
 
