@@ -47,6 +47,15 @@ std::string ticks(const Frame& frame) {
     return svg + "</g>";
 }
 
+// What took no time has no logarithm.
+std::string zero(const Frame& frame, const std::vector<ParetoPoint>& points) {
+    const bool any = std::any_of(points.begin(), points.end(),
+                                 [](const ParetoPoint& point) { return point.milliseconds <= 0; });
+    return any ? format("<text x=\"{}\" y=\"{}\" class=\"x\">0</text>", frame.left,
+                        frame.bottom + 18)
+               : "";
+}
+
 std::string titles(const Frame& frame, const std::string& across, const std::string& up) {
     return format("<text class=\"x\" x=\"{}\" y=\"{}\">{}</text>"
                   "<text class=\"x up\" transform=\"translate(14,{}) rotate(-90)\">{}</text>",
@@ -161,15 +170,15 @@ std::vector<std::optional<NumberPlace>> numberPlaces(const std::vector<Spot>& sp
                                                      double bottom) {
     std::vector<std::optional<NumberPlace>> places;
     const auto isFree = [&](double x, double y) {
-        return x > left - 2 && y < bottom - 2 &&
-               std::none_of(places.begin(), places.end(), [&](const auto& other) {
+        return y < bottom - 2 && std::none_of(places.begin(), places.end(), [&](const auto& other) {
                    return other && std::abs(x - other->x) < 17 && std::abs(y - other->y) < 13;
                });
     };
     for (const Spot& spot : spots) {
         std::optional<NumberPlace> place;
         for (int away = 0; away < 6 && !place; ++away)
-            if (const Spot at{spot.x - 9 - 6 * away, spot.y + 15 + 10 * away}; isFree(at.x, at.y))
+            if (const Spot at{std::max(spot.x - 9 - 6 * away, left + 9), spot.y + 15 + 10 * away};
+                isFree(at.x, at.y))
                 place = {at.x, at.y, away > 0};
         places.push_back(place);
     }
@@ -190,7 +199,7 @@ std::string scatterSvg(const SweepGroup& group, const ErrorMeasure& measure,
         group, techniques, std::move(points), std::move(front),
         Frame{760, 470, 62, 748, 10, 418, logarithmicAxis(milliseconds), linearAxis(errors)}};
     return opening(chart.frame, format("Milliseconds against {}", measure.name)) +
-           staircase(chart) + ticks(chart.frame) +
+           staircase(chart) + ticks(chart.frame) + zero(chart.frame, chart.points) +
            titles(chart.frame, "milliseconds, median of frames (logarithmic)",
                   format("{}, {} reference", measure.name, measure.reference)) +
            threads(chart) + bars(chart) + numbers(chart) + marks(chart, measure, firstId) +

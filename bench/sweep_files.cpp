@@ -181,13 +181,18 @@ std::string machineJson(const SweepMachine& machine) {
     return root.dump(2) + "\n";
 }
 
+// What must be equal of a text: of the method what it is, not the times by which it was chosen.
+std::string keptEqual(const std::string& name, const std::string& value) {
+    return name == "method" ? value.substr(0, value.find(':')) : value;
+}
+
 // Adds what may differ, refuses what may not.
 void join(SweepMachine& all, SweepMachine part, const fs::path& first, const fs::path& folder) {
     std::map<std::string, std::string*> others;
     eachField(part, [&](const std::string& name, std::string& value) { others[name] = &value; });
     eachField(all, [&](const std::string& name, std::string& value) {
         const std::string& other = *others.at(name);
-        if (value == other)
+        if (keptEqual(name, value) == keptEqual(name, other))
             return;
         if (name != "clocks" && name != "date")
             throw Error({(folder / "sweep.json").string(), 0, 0, name},

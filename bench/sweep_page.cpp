@@ -261,7 +261,9 @@ std::string introduction(const SweepMachine& machine) {
            "in both. Point, tap or tab to a mark for all its numbers.</p>\n"
            "<details><summary>What exactly is drawn</summary><p>Milliseconds are those of the "
            "technique's own passes: the median over views of each view's median frame. Thin bars "
-           "go from the 5th to the 95th percentile of frames, also medians over views. RMSE is the "
+           "go from the 5th to the 95th percentile of frames, also medians over views. What took "
+           "no "
+           "time stands on the left border. RMSE is the "
            "root of the mean square over views, all other errors are means over views; bias is "
            "drawn without its sign, which is above 0 where a technique is too dark. Matched errors "
            "are what remains after each technique was fitted on training views. The full reference "
@@ -273,7 +275,13 @@ std::string introduction(const SweepMachine& machine) {
 
 // Each thumbnail stands in the page once; "i<id>" shows it as often as wanted. Those of the fronts
 // come first, the others while there is room.
-std::string thumbnails(const std::vector<SweepGroup>& groups, const std::filesystem::path& folder) {
+struct Thumbnails {
+    std::string style;
+    std::size_t leftOut = 0;
+};
+Thumbnails thumbnailsOf(const std::vector<SweepGroup>& groups,
+                        const std::filesystem::path& folder) {
+    Thumbnails result;
     std::vector<std::string> fronts, others;
     std::size_t firstId = 0, size = 0;
     for (const SweepGroup& group : groups) {
@@ -290,8 +298,10 @@ std::string thumbnails(const std::vector<SweepGroup>& groups, const std::filesys
     while (size > thumbnailBytes && !others.empty()) {
         size -= others.back().size();
         others.pop_back();
+        ++result.leftOut;
     }
-    return format("{}{}", fmt::join(fronts, ""), fmt::join(others, ""));
+    result.style = format("{}{}", fmt::join(fronts, ""), fmt::join(others, ""));
+    return result;
 }
 
 } // namespace
@@ -299,12 +309,17 @@ std::string thumbnails(const std::vector<SweepGroup>& groups, const std::filesys
 std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
     const std::vector<SweepGroup> groups = groupsOf(sweep.rows);
     const std::vector<std::string> techniques = techniquesOf(sweep.rows);
+    const Thumbnails thumbnails = thumbnailsOf(groups, folder);
     std::string html = pageHead("Speed against accuracy",
                                 std::string(sweepPageStyle) + measureStyle() +
-                                    techniqueStyle(techniques.size()) + thumbnails(groups, folder),
+                                    techniqueStyle(techniques.size()) + thumbnails.style,
                                 true) +
-                       shapes(techniques.size()) + introduction(sweep.machine) +
-                       controls(techniques);
+                       shapes(techniques.size()) + introduction(sweep.machine);
+    if (thumbnails.leftOut > 0)
+        html += format("<p class=\"aside\">To keep the page small, the thumbnails of {} "
+                       "configurations off every front are only in the sweep's folder.</p>\n",
+                       thumbnails.leftOut);
+    html += controls(techniques);
     std::size_t firstId = 0;
     for (const SweepGroup& group : groups) {
         html += groupHtml(group, techniques, firstId);

@@ -114,14 +114,14 @@ function nameBeside(mark) {
   name.setAttribute('y', y > 40 ? y - 12 : y + 28);
 }
 
-function show(link) {
+function show(link, named = true) {
   const section = link.closest('section'), address = link.getAttribute('href');
   section.querySelectorAll('.on').forEach(old => old.classList.remove('on'));
   section.querySelectorAll('text.name').forEach(old => { old.textContent = ''; });
   for (const same of section.querySelectorAll('a')) {
     if (same.getAttribute('href') !== address) continue;
     same.classList.add('on');
-    if (same.ownerSVGElement) nameBeside(same);
+    if (named ? same.ownerSVGElement : null) nameBeside(same);
   }
   document.querySelector(address).classList.add('on');
 }
@@ -155,7 +155,7 @@ for (const link of all('section.points a')) {
 }
 for (const section of all('section.points')) {
   const links = [...section.querySelectorAll('.m0 .front a')];
-  if (links.length) show(links[Math.floor(links.length / 2)]);
+  if (links.length) show(links[Math.floor(links.length / 2)], false);
 }
 document.getElementById('none').addEventListener('click', () =>
   all('.techniques input').forEach(box => { box.checked = false; }));

@@ -175,11 +175,14 @@ std::size_t indexOf(const std::vector<std::string>& techniques, const std::strin
 std::map<std::string, std::size_t> techniquesByConfiguration(const Sweep& sweep) {
     const std::vector<std::string> techniques = techniquesOf(sweep.rows);
     std::map<std::string, std::size_t> places;
-    for (const GrowthRow& row : sweep.growth) // configurations begin with their technique
-        places[row.configuration] =
-            indexOf(techniques, row.configuration.substr(0, row.configuration.find(' ')));
     for (const SweepRow& row : sweep.rows)
-        places[row.configuration] = indexOf(techniques, row.technique);
+        places[row.configuration] = places[row.name] = places[row.technique] =
+            indexOf(techniques, row.technique);
+    for (const GrowthRow& row : sweep.growth) { // begins with such a name
+        const auto known = places.find(row.configuration.substr(0, row.configuration.find(' ')));
+        places.emplace(row.configuration,
+                       known == places.end() ? techniques.size() : known->second);
+    }
     return places;
 }
 

@@ -44,8 +44,8 @@ std::vector<std::string> techniquesOf(const std::vector<SweepRow>& rows);
 
 std::size_t indexOf(const std::vector<std::string>& techniques, const std::string& technique);
 
-// Where the technique of each configuration, also of those that only grew, stands among
-// techniquesOf(); their number for one that is not there.
+// Where the technique of each configuration, also of those that only grew, and of each name stands
+// among techniquesOf(); their number for one that is not there.
 std::map<std::string, std::size_t> techniquesByConfiguration(const Sweep& sweep);
 
 // "samples=8 blur=1" as names and values.

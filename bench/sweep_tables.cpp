@@ -39,6 +39,10 @@ struct Cell {
     double milliseconds = 0;
 };
 
+bool fits(const Cell& cell, const std::string& settings, const std::string& culling) {
+    return cell.settings == settings && (cell.culling.empty() || cell.culling == culling);
+}
+
 std::vector<Cell> cellsOf(const SweepGroup& group) {
     std::vector<Cell> cells;
     for (const SweepRow& row : group.points) {
@@ -67,16 +71,22 @@ AblationTable::Column emptyColumn(const SweepGroup& group) {
     return column;
 }
 
-// The tables that a scene's cells call for: their settings and kinds of culling. Adaptive alone is
-// a table only where nothing was culled.
+// The tables that a scene's cells call for: their settings and kinds of culling, where they hold
+// more than one variant. Adaptive alone is a table only where nothing was culled.
 std::set<std::pair<std::string, std::string>> tablesIn(const std::vector<Cell>& cells) {
     std::set<std::pair<std::string, std::string>> tables;
     for (const Cell& cell : cells)
-        if (cell.variant != 0)
-            tables.emplace(cell.settings, cell.culling);
+        tables.emplace(cell.settings, cell.culling);
     for (const Cell& cell : cells)
         if (!cell.culling.empty())
             tables.erase({cell.settings, ""});
+    std::erase_if(tables, [&](const auto& table) {
+        std::set<std::size_t> variants;
+        for (const Cell& cell : cells)
+            if (fits(cell, table.first, table.second))
+                variants.insert(cell.variant);
+        return variants.size() < 2;
+    });
     return tables;
 }
 
@@ -84,7 +94,7 @@ void fill(AblationTable& table, const std::string& settings, const std::string& 
           const SweepGroup& group) {
     AblationTable::Column column = emptyColumn(group);
     for (const Cell& cell : cellsOf(group))
-        if (cell.settings == settings && (cell.culling.empty() || cell.culling == culling))
+        if (fits(cell, settings, culling))
             column.milliseconds[cell.samples][cell.variant] = cell.milliseconds;
     table.columns.push_back(column);
 }

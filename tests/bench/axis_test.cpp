@@ -53,7 +53,8 @@ TEST(Axis, BeginsALinearRangeAtZero) {
 }
 
 TEST(NumberPlaces, KeepsNumbersApartAndOffTheBorder) {
-    const auto places = numberPlaces({{100, 100}, {102, 101}, {104, 102}, {300, 399}}, 60, 400);
+    const auto places =
+        numberPlaces({{100, 100}, {102, 101}, {104, 102}, {300, 399}, {60, 200}}, 60, 400);
     for (std::size_t i = 0; i < 3; ++i) {
         ASSERT_TRUE(places[i]);
         for (std::size_t j = 0; j < i; ++j)
@@ -63,6 +64,8 @@ TEST(NumberPlaces, KeepsNumbersApartAndOffTheBorder) {
     EXPECT_FALSE(places[0]->far);
     EXPECT_TRUE(places[1]->far);
     EXPECT_FALSE(places[3]); // no room above the border
+    ASSERT_TRUE(places[4]);
+    EXPECT_GT(places[4]->x, 60); // beside the border
 }
 
 } // namespace

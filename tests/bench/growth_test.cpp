@@ -14,13 +14,13 @@ using testing::ElementsAre;
 TEST(Growth, FindsKeplersThirdLaw) {
     std::vector<GrowthRow> rows;
     for (const auto& [axis, period] : {std::pair(30.07, 164.8),
-                                      {0.387, 0.2408},
-                                      {0.723, 0.6152},
-                                      {1.0, 1.0},
-                                      {1.524, 1.881},
-                                      {5.204, 11.862},
-                                      {9.582, 29.457},
-                                      {19.20, 84.01}})
+                                       {0.387, 0.2408},
+                                       {0.723, 0.6152},
+                                       {1.0, 1.0},
+                                       {1.524, 1.881},
+                                       {5.204, 11.862},
+                                       {9.582, 29.457},
+                                       {19.20, 84.01}})
         rows.push_back({"planets", "radius", axis, period});
     const std::vector<Growth> growth = growthOf(rows);
     ASSERT_EQ(growth.size(), 1u);

@@ -167,6 +167,10 @@ TEST_F(SweepParts, MustBeOfOneMachineAndStudy) {
     second_.machine.renderer = "a GPU";
     EXPECT_THAT(mergeError(), testing::StartsWith("b/sweep.json: renderer: expected \"llvmpipe"));
     second_.machine.renderer = first_.machine.renderer;
+    first_.machine.method = "glFinish: a load takes 28.3 ms";
+    second_.machine.method = "time stamps: a load takes 28.4 ms";
+    EXPECT_THAT(mergeError(), HasSubstr("b/sweep.json: method: expected \"glFinish"));
+    second_.machine.method = "glFinish: a load takes 28.4 ms";
     second_.machine.study = "another";
     EXPECT_THAT(mergeError(), HasSubstr("b/sweep.json: study: expected \"aaaa"));
 }

@@ -90,7 +90,10 @@ TEST(SweepPage, StaysBelow25MegabytesWhateverThumbnailsWeigh) {
                     row.litMatched = {9, 9, -9, 9};
             sweep.rows.push_back(row);
         }
-    EXPECT_LT(sweepPage(sweep, folder.path()).size(), 25e6);
+    const std::string page = sweepPage(sweep, folder.path());
+    EXPECT_LT(page.size(), 25e6);
+    EXPECT_THAT(page, HasSubstr("configurations off every front are only in the sweep's folder"));
+    EXPECT_GT(count(page, dataAddress("image/png", std::string(1'000'000, 'x')).substr(0, 40)), 9u);
 }
 
 } // namespace

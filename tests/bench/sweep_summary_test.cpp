@@ -102,11 +102,15 @@ TEST(ErrorMeasures, BeginWithMatchedRmseAndAreBetterWhenLess) {
 TEST(Techniques, AreFoundByConfigurationAlsoWhereOnlyGrowthWasMeasured) {
     Sweep sweep;
     sweep.rows = {rowOf("sao samples=2", "1", 1), rowOf("hbao", "1", 1)};
-    sweep.growth = {{"sao samples=9", "samples", 9, 1}, {"gtao", "samples", 9, 1}};
+    sweep.rows[1].name = "horizon";
+    sweep.growth = {{"sao samples=9", "samples", 9, 1},
+                    {"horizon steps=8", "radius", 9, 1},
+                    {"gtao", "samples", 9, 1}};
     const auto places = techniquesByConfiguration(sweep);
     EXPECT_EQ(places.at("hbao"), 0u);
     EXPECT_EQ(places.at("sao samples=2"), 1u);
     EXPECT_EQ(places.at("sao samples=9"), 1u);
+    EXPECT_EQ(places.at("horizon steps=8"), 0u);
     EXPECT_EQ(places.at("gtao"), 2u); // not in the sweep
 }
 
