@@ -14,7 +14,7 @@ namespace obscura {
 
 namespace {
 
-constexpr int width = 48, height = 27, rays = 8, candidatesPerCamera = 12;
+constexpr int width = 48, height = 27, rays = 8, candidatesPerCamera = 16;
 constexpr double fovDegrees = 55;
 
 Vec3 arrayOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -35,7 +35,7 @@ Camera inside(const Bounds& bounds, Random& random) {
 
 Camera around(const Bounds& bounds, Random& random) {
     const glm::dvec3 low(bounds.low), high(bounds.high), middle = 0.5 * (low + high);
-    const double distance = glm::length(high - low) * (0.6 + 0.6 * random.uniform()),
+    const double distance = glm::length(high - low) * (0.45 + 0.45 * random.uniform()),
                  turn = 2 * std::numbers::pi * random.uniform(), rise = 0.8 * random.uniform();
     Camera camera;
     camera.position = arrayOf(
@@ -56,7 +56,7 @@ double interest(const Subject& subject, const RayTracer& tracer, const Camera& c
             depths.push_back(surfaces.depth[i]);
     const double shown =
         static_cast<double>(depths.size()) / static_cast<double>(surfaces.depth.size());
-    if (shown < 0.25)
+    if (shown < 0.12)
         return -1;
     const auto twentieth = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 20);
     std::nth_element(depths.begin(), twentieth, depths.end());
