@@ -53,8 +53,8 @@ class Probe {
     OcclusionPasses passesFor(const Settings& settings, int beyond = 0) const;
 
     // The same without fetching the picture: what there is to time.
-    const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes,
-                           int beyond = 0, const PassObserver& issued = {}) const;
+    const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes, int beyond = 0,
+                           const PassObserver& issued = {}) const;
     void drawGBuffer() const; // once more
 
     int width() const { return width_; }

@@ -56,8 +56,10 @@ vec3 sunReflected(vec4 albedo, vec3 normal, float power, vec3 towardsEye, vec3 w
 
 #if !CONSTANT_AMBIENT
 vec3 radianceFrom(vec3 direction) {
-    float longitude = atan(direction.x, -direction.z), colatitude = acos(clamp(direction.y, -1.0, 1.0));
-    return textureLod(panorama, vec2(longitude / 6.28318531 + 0.5, colatitude / 3.14159265), 0.0).rgb;
+    float longitude = atan(direction.x, -direction.z),
+          colatitude = acos(clamp(direction.y, -1.0, 1.0));
+    return textureLod(panorama, vec2(longitude / 6.28318531 + 0.5, colatitude / 3.14159265), 0.0)
+        .rgb;
 }
 #endif
 
@@ -77,11 +79,13 @@ void main() {
     ambientOut = vec4(empty ? background : albedo.rgb * ambient, 1.0);
 #else
     ambientOut = vec4(empty ? radianceFrom(normalize(world - eye))
-                            : albedo.rgb * irradianceAt(normal) / 3.14159265, 1.0);
+                            : albedo.rgb * irradianceAt(normal) / 3.14159265,
+                      1.0);
 #endif
 #if SUN
-    directOut = vec4(empty ? vec3(0.0)
-                           : sunReflected(albedo, normal, viewNormal.w, normalize(eye - world), world),
-                     1.0);
+    directOut =
+        vec4(empty ? vec3(0.0)
+                   : sunReflected(albedo, normal, viewNormal.w, normalize(eye - world), world),
+             1.0);
 #endif
 }

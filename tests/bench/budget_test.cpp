@@ -1,5 +1,4 @@
 #include "bench/budget.h"
-
 #include "bench/timing.h"
 #include "protocols/error.h"
 
@@ -24,8 +23,9 @@ TEST(Budget, WorstExcessComesFirst) {
     const ViewResult good{0.05, 0.1, 0, 1}, slow{0.05, 0.1, 0, 5}, wrong{0.2, 0.1, 0, 1};
     EXPECT_EQ(excess(budget, std::vector{good, good}), "");
     EXPECT_EQ(excess(budget, std::vector{good, slow}), "5 ms, budget 2");
-    EXPECT_THAT(excess(budget, std::vector{wrong, wrong}),
-                testing::StartsWith("RMSE 0.200 (at most 0.200 with 95 % confidence), budget 0.100"));
+    EXPECT_THAT(
+        excess(budget, std::vector{wrong, wrong}),
+        testing::StartsWith("RMSE 0.200 (at most 0.200 with 95 % confidence), budget 0.100"));
     // What was not measured meets no limit.
     const ViewResult unknown{std::nan(""), 0.1, 0, 1};
     EXPECT_NE(excess(budget, std::vector{unknown, unknown}), "");
@@ -38,10 +38,11 @@ TEST(Budget, MistakesNameWhatThereIs) {
             budgetOf(limits);
             ADD_FAILURE() << "no error for " << wrong;
         } catch (const Error& error) {
-            EXPECT_EQ(std::string(error.what()),
-                      "expected a limit like rmse=0.1, with one of rmse, flip, litFlip, flicker, ms "
-                      "before \"=\" and a number of at least 0 after it, found \"" +
-                          wrong + "\"");
+            EXPECT_EQ(
+                std::string(error.what()),
+                "expected a limit like rmse=0.1, with one of rmse, flip, litFlip, flicker, ms "
+                "before \"=\" and a number of at least 0 after it, found \"" +
+                    wrong + "\"");
         }
     }
 }

@@ -1,4 +1,5 @@
 #include "bench/camera_path.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

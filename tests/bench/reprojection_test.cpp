@@ -1,7 +1,7 @@
 // Motion that is known in closed form.
+#include "bench/reprojection.h"
 #include "tests/bench/plane_surfaces.h"
 
-#include "bench/reprojection.h"
 #include <gtest/gtest.h>
 
 namespace obscura {

@@ -1,9 +1,8 @@
 // Whole tests on a small scene.
-#include "protocols/error.h"
-#include "tests/renderer/occlusion_fixture.h"
-
 #include "bench/temporal.h"
 #include "bench/temporal_tests.h"
+#include "protocols/error.h"
+#include "tests/renderer/occlusion_fixture.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // Pictures whose changes are known in closed form, on a wall that a step aside moves by 2.5 pixels.
+#include "bench/temporal_measures.h"
 #include "tests/bench/plane_surfaces.h"
 
-#include "bench/temporal_measures.h"
 #include <gtest/gtest.h>
 
 #include <cmath>

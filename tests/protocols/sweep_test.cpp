@@ -1,6 +1,5 @@
-#include "protocols/sweep.h"
-
 #include "protocols/error.h"
+#include "protocols/sweep.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -53,17 +52,17 @@ std::vector<std::string> namesOf(const std::vector<TechniqueSetting>& settings) 
 TEST(SweepStudy, ListsMakeEveryCombination) {
     const SweepStudy study = parseSweepStudy(text, "small.toml");
     EXPECT_THAT(namesOf(study.match.techniques),
-                testing::UnorderedElementsAre(
-                    "none", "hbao blur=1 steps=2", "hbao blur=1 steps=4", "hbao blur=0 steps=2",
-                    "hbao blur=0 steps=4", "gtao low", "gtao high"));
+                testing::UnorderedElementsAre("none", "hbao blur=1 steps=2", "hbao blur=1 steps=4",
+                                              "hbao blur=0 steps=2", "hbao blur=0 steps=4",
+                                              "gtao low", "gtao high"));
     for (const TechniqueSetting& each : study.match.techniques)
         if (each.name == "hbao blur=0 steps=4") {
             std::map<std::string, double> values;
             for (const Setting& setting : each.settings)
                 values[setting.name] = setting.value;
-            EXPECT_THAT(values, testing::ElementsAre(testing::Pair("angleBias", 10),
-                                                     testing::Pair("blur", 0),
-                                                     testing::Pair("steps", 4)));
+            EXPECT_THAT(values,
+                        testing::ElementsAre(testing::Pair("angleBias", 10),
+                                             testing::Pair("blur", 0), testing::Pair("steps", 4)));
         }
     EXPECT_EQ(variedName("hbao blur=0 steps=4"), "hbao");
     EXPECT_EQ(study.sizes.size(), 2u);

@@ -6,8 +6,8 @@
 //
 // Two departures, both so that the radius can be matched in metres. The appendix leaves offsets in
 // texture coordinates, an ellipse 16/9 wider than tall; ours are round on screen. And it scales the
-// depth offset by the depth itself, which is a sphere only at a field of view of 53 degrees; ours is
-// a sphere at any. As in the appendix, the ball is constant on screen: it has `radius` metres at
+// depth offset by the depth itself, which is a sphere only at a field of view of 53 degrees; ours
+// is a sphere at any. As in the appendix, the ball is constant on screen: it has `radius` metres at
 // the focus distance and grows in proportion to depth.
 
 #include "crytek.glsl"

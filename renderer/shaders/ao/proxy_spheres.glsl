@@ -1,24 +1,26 @@
-// Occlusion by spheres (Shanmugam and Arikan 2007). One formula serves both of the paper's passes: a
-// sphere of radius r at distance d blocks the cap of 2 pi (1 - cos asin(r / d)) steradians, all of it
-// under the cosine of the direction to its centre; contributions are summed, divided by pi.
-// High frequency ("detail"): neighbouring pixels stand for themselves, each as a sphere whose disc is
-// its share of the search disc, so that its effect falls with the square of the distance. The nearer
-// the camera, the more of them. Low frequency ("distant"): spheres fitted to the scene's meshes
-// (renderer/proxies.h) are splatted over the pixels that they may reach.
+// Occlusion by spheres (Shanmugam and Arikan 2007). One formula serves both of the paper's passes:
+// a sphere of radius r at distance d blocks the cap of 2 pi (1 - cos asin(r / d)) steradians, all
+// of it under the cosine of the direction to its centre; contributions are summed, divided by pi.
+// High frequency ("detail"): neighbouring pixels stand for themselves, each as a sphere whose disc
+// is its share of the search disc, so that its effect falls with the square of the distance. The
+// nearer the camera, the more of them. Low frequency ("distant"): spheres fitted to the scene's
+// meshes (renderer/proxies.h) are splatted over the pixels that they may reach.
 //
-// Facts are from Jakobsen 2010, chapter 2, and other later accounts: the paper itself was not at hand.
-// The sum forgets that occluders hide each other: it double-counts, the paper's known fault, kept.
-// Departures:
+// Facts are from Jakobsen 2010, chapter 2, and other later accounts: the paper itself was not at
+// hand. The sum forgets that occluders hide each other: it double-counts, the paper's known fault,
+// kept. Departures:
 // - A surface must not occlude itself by its own sphere. Fitted spheres have their centres on or
 //   inside what they stand for, so their cosine is 0 or less there; and every sphere counts nothing
-//   inside itself and fades in over `nearFade` radii outside, where its caps are too wide to be true.
+//   inside itself and fades in over `nearFade` radii outside, where its caps are too wide to be
+//   true.
 // - A splat must end somewhere: its effect fades to nothing at `distantReach`. Details end at the
 //   radius.
-// - Fitted spheres enclose patches, and those of a wall's far side count too: `sphereSize` makes up.
+// - Fitted spheres enclose patches, and those of a wall's far side count too: `sphereSize` makes
+// up.
 //
-// Limits: one sphere, far inside all fades: visibility 1 - 2 (1 - sqrt(1 - r^2/d^2)) cos. Infinitely
-// many pixels, bias 0: occlusion proxySize^2 / pi times the integral of cos / d^2 over the area that
-// faces the camera, of what lies within the radius. It has no bound in a crease.
+// Limits: one sphere, far inside all fades: visibility 1 - 2 (1 - sqrt(1 - r^2/d^2)) cos.
+// Infinitely many pixels, bias 0: occlusion proxySize^2 / pi times the integral of cos / d^2 over
+// the area that faces the camera, of what lies within the radius. It has no bound in a crease.
 
 #include "blur_normal.glsl"
 #include "noise.glsl"

@@ -22,8 +22,8 @@ vec4 gather(ivec2 pixel) {
     int count = int(settings.samples), steps = int(settings.steps);
     float sum = 0.0;
     for (int i = 0; i < count; ++i) {
-        vec3 stride = hemisphereOffset(points[i].xyz, mirror, normal) *
-                      (settings.radius / float(steps));
+        vec3 stride =
+            hemisphereOffset(points[i].xyz, mirror, normal) * (settings.radius / float(steps));
         vec3 point = position;
         float nearer;
         int walked = 0;
