@@ -91,8 +91,8 @@ class Choosing {
     std::string unsteadiness(const Candidate& candidate);
     std::map<std::string, MatchedTechnique> fits(const MatchStudy& study,
                                                  const std::string& folder);
-    std::vector<double> milliseconds(std::size_t view, const std::vector<Settings>& settings,
-                                     int frames, double seconds, bool high);
+    std::vector<Milliseconds> milliseconds(std::size_t view, const std::vector<Settings>& settings,
+                                           int frames, double seconds, bool last);
     void tell(const std::string& note) {
         const auto all = static_cast<double>(3 * study_.match.techniques.size());
         progress_(std::min(done_, all), all, note);
@@ -111,8 +111,9 @@ class Choosing {
     double done_ = 0; // in candidates, each rung counting alike
 };
 
-std::vector<double> Choosing::milliseconds(std::size_t view, const std::vector<Settings>& settings,
-                                           int frames, double seconds, bool high) {
+std::vector<Milliseconds> Choosing::milliseconds(std::size_t view,
+                                                 const std::vector<Settings>& settings, int frames,
+                                                 double seconds, bool last) {
     TimingPlan plan;
     plan.frames = frames;
     plan.seconds = seconds;
@@ -122,13 +123,13 @@ std::vector<double> Choosing::milliseconds(std::size_t view, const std::vector<S
     MeasuredView& seen = stages_.view(view);
     const auto times =
         timeTechniques(seen.probe(), settings, seen.view().radius, plan, [&](double share) {
-            if (!high)
+            if (!last)
                 done_ = before + share * static_cast<double>(settings.size());
             tell("timing");
         });
-    std::vector<double> result;
+    std::vector<Milliseconds> result;
     for (const TechniqueTime& time : times)
-        result.push_back(high ? time.total.high : time.total.median);
+        result.push_back(time.total);
     return result;
 }
 
@@ -144,7 +145,7 @@ void Choosing::timeAll() {
     }
     const auto times = milliseconds(0, settings, glanceFrames, 0, false);
     for (std::size_t i = 0; i < times.size(); ++i)
-        choice_.candidates[i].milliseconds = times[i];
+        choice_.candidates[i].milliseconds = times[i].median;
     std::stable_sort(
         choice_.candidates.begin(), choice_.candidates.end(),
         [](const Candidate& a, const Candidate& b) { return a.milliseconds < b.milliseconds; });
@@ -219,9 +220,10 @@ bool Choosing::confirm(Candidate& candidate) {
     for (std::size_t i = 0; i < stages_.count(); ++i) {
         const std::vector<Settings> settings{
             settingsAt(candidate.configuration, stages_.view(i).view().radius, true)};
-        candidate.views[i].milliseconds =
+        const Milliseconds time =
             milliseconds(i, settings, study_.frames, study_.seconds, true).front();
-        candidate.milliseconds = std::max(candidate.milliseconds, candidate.views[i].milliseconds);
+        candidate.views[i].milliseconds = time.high;
+        candidate.milliseconds = std::max(candidate.milliseconds, time.median);
     }
     candidate.verdict = excess(budget_, candidate.views);
     if (candidate.verdict.empty())

@@ -21,7 +21,7 @@ enum class Rung {
 struct Candidate {
     Configuration configuration;
     Rung rung = Rung::time;
-    double milliseconds = 0;       // median; of the last rung
+    double milliseconds = 0;       // median, on the dearest view; of the last rung
     double glance = 0, rmse = 0;   // of matched visibility: at a glance, on held-out views; NaN
                                    // before those rungs
     std::vector<ViewResult> views; // from `held_out` on

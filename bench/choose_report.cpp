@@ -97,7 +97,7 @@ std::string points(const Choice& choice, Rung rung, double least) {
         if (candidate.rung == rung)
             text += fmt::format("{} {} {}\n", std::max(candidate.milliseconds, least),
                                 rung == Rung::glance ? candidate.glance : candidate.rmse,
-                                gnuplotText(nameOf(candidate)));
+                                '"' + nameOf(candidate) + '"');
     return text.empty() ? "NaN NaN ''\ne\n" : text + "e\n";
 }
 
