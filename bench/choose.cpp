@@ -19,9 +19,11 @@ namespace obscura {
 namespace {
 
 constexpr ImageSize glanceSize{160, 90};
-constexpr int glanceRays = 64, glanceFrames = 3;
+constexpr int glanceRays = 64, glanceFrames = 5;
 // A glance sees one small view: what is over the budget by less than this may still meet it.
 constexpr double glanceFactor = 1.5, glanceMargin = 0.02;
+// Costs by a few frames that differ by less than this are not told apart.
+constexpr double nearlyAlike = 1.15;
 
 // Each scene of a study, once loaded, with its views measured so far.
 class Stages {
@@ -87,7 +89,8 @@ class Choosing {
     void timeAll();
     void glance();
     void measure(Candidate& candidate);
-    bool confirm(Candidate& candidate);
+    std::vector<std::size_t> finalists(std::size_t& next);
+    void timeAtLength(std::span<const std::size_t> finalists);
     std::string unsteadiness(const Candidate& candidate);
     std::map<std::string, MatchedTechnique> fits(const MatchStudy& study,
                                                  const std::string& folder);
@@ -207,28 +210,56 @@ void Choosing::measure(Candidate& candidate) {
             seen.probe().visibility(settingsAt(candidate.configuration, seen.view().radius, true));
         const ViewErrors errors = seen.errorsOf(image);
         candidate.views.push_back(
-            {errors.full.rmse, errors.full.flip, errors.lit.flip, candidate.milliseconds});
+            {errors.full.rmse, errors.full.flip, errors.lit.flip, 0}); // not timed yet
         squares += errors.full.rmse * errors.full.rmse;
         tell("measuring " + candidate.configuration.setting.name);
     }
     candidate.rmse = std::sqrt(squares / static_cast<double>(stages_.count()));
 }
 
-// Timed as long as a sweep would, on every view.
-bool Choosing::confirm(Candidate& candidate) {
-    candidate.milliseconds = 0;
-    for (std::size_t i = 0; i < stages_.count(); ++i) {
-        const std::vector<Settings> settings{
-            settingsAt(candidate.configuration, stages_.view(i).view().radius, true)};
-        const Milliseconds time =
-            milliseconds(i, settings, study_.frames, study_.seconds, true).front();
-        candidate.views[i].milliseconds = time.high;
-        candidate.milliseconds = std::max(candidate.milliseconds, time.median);
+// From the candidate `next` on: the first that meets the limits on errors, and those of nearly its
+// cost that do. Ends behind the last that was looked at.
+std::vector<std::size_t> Choosing::finalists(std::size_t& next) {
+    std::vector<std::size_t> found;
+    for (; next < choice_.candidates.size(); ++next) {
+        Candidate& candidate = choice_.candidates[next];
+        if (!found.empty() && candidate.milliseconds >
+                                  nearlyAlike * choice_.candidates[found.front()].milliseconds)
+            break;
+        if (!candidate.verdict.empty())
+            continue;
+        measure(candidate);
+        candidate.verdict = excess(budget_, candidate.views);
+        if (candidate.verdict.empty())
+            found.push_back(next);
     }
-    candidate.verdict = excess(budget_, candidate.views);
-    if (candidate.verdict.empty())
-        candidate.verdict = unsteadiness(candidate);
-    return candidate.verdict.empty();
+    return found;
+}
+
+// As long as a sweep would, on every view; then they stand in their new order.
+void Choosing::timeAtLength(std::span<const std::size_t> finalists) {
+    for (const std::size_t f : finalists)
+        choice_.candidates[f].milliseconds = 0;
+    for (std::size_t i = 0; i < stages_.count(); ++i) {
+        std::vector<Settings> settings;
+        for (const std::size_t f : finalists)
+            settings.push_back(settingsAt(choice_.candidates[f].configuration,
+                                          stages_.view(i).view().radius, true));
+        const auto times = milliseconds(i, settings, study_.frames, study_.seconds, true);
+        for (std::size_t k = 0; k < finalists.size(); ++k) {
+            Candidate& candidate = choice_.candidates[finalists[k]];
+            candidate.views[i].milliseconds = times[k].high;
+            candidate.milliseconds += times[k].median / static_cast<double>(stages_.count());
+        }
+    }
+    std::vector<Candidate> order;
+    for (const std::size_t f : finalists)
+        order.push_back(std::move(choice_.candidates[f]));
+    std::stable_sort(order.begin(), order.end(), [](const Candidate& a, const Candidate& b) {
+        return a.milliseconds < b.milliseconds;
+    });
+    for (std::size_t k = 0; k < finalists.size(); ++k)
+        choice_.candidates[finalists[k]] = std::move(order[k]);
 }
 
 std::string Choosing::unsteadiness(const Candidate& candidate) {
@@ -252,15 +283,20 @@ Choice Choosing::run() {
     const auto start = std::chrono::steady_clock::now();
     timeAll();
     glance();
-    for (std::size_t i = 0; i < choice_.candidates.size() && !choice_.chosen; ++i) {
-        Candidate& candidate = choice_.candidates[i];
-        if (!candidate.verdict.empty())
-            continue;
-        measure(candidate);
-        candidate.verdict = excess(budget_, candidate.views);
-        if (candidate.verdict.empty() && confirm(candidate)) {
-            candidate.rung = Rung::chosen;
-            choice_.chosen = i;
+    for (std::size_t next = 0; next < choice_.candidates.size() && !choice_.chosen;) {
+        const std::vector<std::size_t> final = finalists(next);
+        if (!final.empty())
+            timeAtLength(final);
+        for (const std::size_t f : final) {
+            Candidate& candidate = choice_.candidates[f];
+            candidate.verdict = excess(budget_, candidate.views);
+            if (candidate.verdict.empty())
+                candidate.verdict = unsteadiness(candidate);
+            if (candidate.verdict.empty()) {
+                candidate.rung = Rung::chosen;
+                choice_.chosen = f;
+                break;
+            }
         }
     }
     choice_.seconds =

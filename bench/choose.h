@@ -21,7 +21,7 @@ enum class Rung {
 struct Candidate {
     Configuration configuration;
     Rung rung = Rung::time;
-    double milliseconds = 0;       // median, on the dearest view; of the last rung
+    double milliseconds = 0;       // median; on the first view, of finalists the mean of all
     double glance = 0, rmse = 0;   // of matched visibility: at a glance, on held-out views; NaN
                                    // before those rungs
     std::vector<ViewResult> views; // from `held_out` on
@@ -35,8 +35,10 @@ struct Choice {
 };
 
 // By a race in rungs: time all a little, look at all a little, then measure in order of cost until
-// one meets every limit with 95 % confidence on views that it was not fitted on (so the study must
-// have at least two test views of each radius). Of equal means the fact sheet's rule (§F.8).
+// one meets every limit on errors with 95 % confidence on views that it was not fitted on (so the
+// study must have at least two test views of each radius). It and those of nearly its cost are the
+// finalists: timed at length, in turn, on all views, and the cheapest that meets every limit wins
+// (the fact sheet's rule, §F.8).
 Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress);
 

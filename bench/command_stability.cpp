@@ -1,5 +1,6 @@
 #include "bench/commands.h"
 #include "bench/stability.h"
+#include "bench/temporal_tests.h"
 #include "protocols/progress.h"
 #include "renderer/builtin.h"
 #include "renderer/gl/context.h"
@@ -20,10 +21,26 @@ struct Options {
     bool quick = false, pageOnly = false;
     std::string scene = "atrium";
     std::filesystem::path scenes;
+    std::vector<std::string> tests; // empty: all
     std::vector<double> camera{7.6, 1.2, -0.9, -4, 2.4, 1.2};
     double fovDegrees = 60, radius = 0.5;
     int frames = 0;
 };
+
+std::vector<std::string> motionTestIds() {
+    std::vector<std::string> ids;
+    for (const TemporalTest& row : temporalTests())
+        ids.emplace_back(row.test.id);
+    return ids;
+}
+
+// Those of `all` that were asked for; all of them unless any were.
+std::vector<std::string> asked(std::vector<std::string> all, const std::vector<std::string>& tests) {
+    std::erase_if(all, [&](const std::string& id) {
+        return !tests.empty() && std::find(tests.begin(), tests.end(), id) == tests.end();
+    });
+    return all;
+}
 
 Motion motionOf(const Options& options) {
     View view;
@@ -55,7 +72,12 @@ int run(Options options) {
     stability.size.width = stability.size.height * 8 / 9 * 2;
     if (stability.configurations.empty())
         stability.configurations = screenTechniques();
+    stability.tests = asked(stillTestIds(), options.tests);
     stability.motion = motionOf(options);
+    if (!options.tests.empty())
+        stability.motion->effort.tests = asked(motionTestIds(), options.tests);
+    if (stability.motion->effort.tests.empty())
+        stability.motion.reset();
     Progress progress("stability", 1);
     runStability(stability,
                  [&](double done, const std::string& note) { progress.update(done, note); });
@@ -74,6 +96,11 @@ std::vector<Command> stabilityCommands(CLI::App& app) {
     command->add_option("--out", stability.folder, "result folder")->capture_default_str();
     command->add_option("--technique", stability.configurations,
                         "id, or \"id setting=value ...\"; may be repeated; default: all");
+    std::vector<std::string> tests = stillTestIds();
+    for (std::string& id : motionTestIds())
+        tests.push_back(std::move(id));
+    command->add_option("--test", options->tests, "only this one; may be repeated; default: all")
+        ->check(CLI::IsMember(tests));
     command->add_option("--height", stability.size.height, "lines of the tests' images")
         ->check(CLI::Range(72, 2160))
         ->capture_default_str();

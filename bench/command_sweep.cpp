@@ -2,6 +2,7 @@
 #include "bench/choose_report.h"
 #include "bench/commands.h"
 #include "bench/figures.h"
+#include "bench/stability.h"
 #include "bench/sweep.h"
 #include "bench/sweep_files.h"
 #include "bench/sweep_page.h"
@@ -144,7 +145,21 @@ struct ChooseOptions {
     double radius = 0;
     int cameras = 8;
     std::vector<std::string> limits, failures;
+    fs::path sweep; // to be compared with; may be empty
 };
+
+// What measuring everything would have chosen, by the rows of the study's size.
+std::string answerOf(Sweep sweep, const SweepStudy& study, const Budget& budget) {
+    if (sweep.machine.study != study.match.sha256)
+        throw Error("expected --sweep to name a sweep of this study, found one of another study "
+                    "or of an earlier text of it");
+    const ImageSize& size = study.sizes.front();
+    std::erase_if(sweep.rows, [&](const SweepRow& row) {
+        return row.width != size.width || row.height != size.height;
+    });
+    const std::string name = chosenFrom(sweep, budget);
+    return name.empty() ? "nothing" : name;
+}
 
 // The study's own views, or cameras that see the scene, half of them to fit on.
 SweepStudy studyOf(const ChooseOptions& options, const Folders& folders) {
@@ -177,6 +192,8 @@ int runChoose(const ChooseOptions& options) {
     SweepStudy study = studyOf(options, folders);
     adjust(study, options.study, quickChooseViews);
     study.sizes.resize(1);
+    const std::string bySweep =
+        options.sweep.empty() ? "" : answerOf(readSweep(options.sweep), study, budget);
     const fs::path folder =
         options.study.out.empty() ? fs::path("choose-" + study.match.name) : options.study.out;
     Reporting reporting("choosing");
@@ -185,6 +202,8 @@ int runChoose(const ChooseOptions& options) {
     reporting.end();
     writeChoice(folder, study, budget, choice);
     fmt::print("{}", choiceText(study, budget, choice));
+    if (!bySweep.empty())
+        fmt::print("By the sweep of everything (errors and milliseconds alone): {}\n", bySweep);
     fmt::print("In {}: choice.toml for a protocol's include, choice.svg\n", folder.string());
     return choice.chosen ? 0 : 1;
 }
@@ -240,7 +259,10 @@ std::vector<Command> sweepCommands(CLI::App& app) {
                      "rmse, flip, litFlip, flicker or ms = NUMBER; may be repeated")
         ->required();
     choosing->add_option("--must-pass", options->failures,
-                         "a test of obscura-bench stability that must not fail; may be repeated");
+                         "a test of obscura-bench stability that must not fail; may be repeated")
+        ->check(CLI::IsMember(stillTestIds()));
+    choosing->add_option("--sweep", options->sweep,
+                         "folder of a finished sweep of the study: also say what it would choose");
     addStudyOptions(*choosing, study);
 
     return {{sweeping, [options] { return runSweep(options->study); }},

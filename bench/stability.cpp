@@ -8,6 +8,7 @@
 #include "stimuli/page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -22,6 +23,20 @@ std::vector<const FailureTestRow*> allRows() {
     for (const auto tests : {openTests(), occluderTests(), cameraTests(), invarianceTests()})
         for (const FailureTestRow& row : tests)
             rows.push_back(&row);
+    return rows;
+}
+
+// In the order of the page's columns.
+std::vector<const FailureTestRow*> rowsOf(const std::vector<std::string>& wanted) {
+    const std::vector<std::string> known = stillTestIds();
+    for (const std::string& id : wanted)
+        if (std::find(known.begin(), known.end(), id) == known.end())
+            throw Error(fmt::format("expected the name of a failure test, one of {}, found \"{}\"",
+                                    fmt::join(known, ", "), id));
+    std::vector<const FailureTestRow*> rows = allRows();
+    std::erase_if(rows, [&](const FailureTestRow* row) {
+        return std::find(wanted.begin(), wanted.end(), row->about.id) == wanted.end();
+    });
     return rows;
 }
 
@@ -76,6 +91,13 @@ std::vector<StabilityTest> stabilityTests() {
     return tests;
 }
 
+std::vector<std::string> stillTestIds() {
+    std::vector<std::string> ids;
+    for (const FailureTestRow* row : allRows())
+        ids.emplace_back(row->about.id);
+    return ids;
+}
+
 std::vector<std::string> screenTechniques() {
     std::vector<std::string> ids;
     for (const Technique& technique : techniques())
@@ -86,12 +108,15 @@ std::vector<std::string> screenTechniques() {
 
 namespace {
 
-std::vector<StabilityTest> allTests(const std::vector<StabilityCell>& cells) {
+// The tests that were run.
+std::vector<StabilityTest> testsOf(const std::vector<StabilityCell>& cells) {
     std::vector<StabilityTest> tests = stabilityTests();
     for (const TemporalTest& row : temporalTests())
-        if (std::any_of(cells.begin(), cells.end(),
-                        [&](const StabilityCell& cell) { return cell.test == row.test.id; }))
-            tests.push_back(row.test);
+        tests.push_back(row.test);
+    std::erase_if(tests, [&](const StabilityTest& test) {
+        return std::none_of(cells.begin(), cells.end(),
+                            [&](const StabilityCell& cell) { return cell.test == test.id; });
+    });
     return tests;
 }
 
@@ -123,10 +148,10 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
         tested.emplace_back(configuration);
     std::vector<StabilityCell> cells;
     std::vector<std::unique_ptr<FailureTest>> tests;
-    const std::vector<const FailureTestRow*> rows = allRows();
+    const std::vector<const FailureTestRow*> rows = rowsOf(options.tests);
     // In motion takes about as long as all else.
-    const double steps =
-        static_cast<double>(rows.size() * (tested.size() + 1)) * (options.motion ? 2 : 1);
+    const double still = options.motion ? (rows.empty() ? 0 : 0.5) : 1,
+                 steps = static_cast<double>(rows.size() * (tested.size() + 1)) / still;
     double done = 0;
     for (const FailureTestRow* row : rows) {
         progress(done++ / steps, fmt::format("scene of {}", row->about.id));
@@ -140,15 +165,15 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
             for (StabilityCell& cell : cellsOf(*rows[i], *tests[i], technique, options.folder))
                 cells.push_back(std::move(cell));
         }
-        writeFile(options.folder / "stability.csv", stabilityCsv(stabilityTests(), cells));
+        writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
     }
     if (options.motion) {
         const auto inMotion = cellsInMotion(*options.motion, tested, options.folder,
                                             [&](double share, const std::string& note) {
-                                                progress(0.5 + 0.5 * share, "in motion: " + note);
+                                                progress(still + (1 - still) * share, "in motion: " + note);
                                             });
         cells.insert(cells.end(), inMotion.begin(), inMotion.end());
-        writeFile(options.folder / "stability.csv", stabilityCsv(allTests(cells), cells));
+        writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
     }
     writeStabilityPage(options.folder);
     return cells;
@@ -156,7 +181,7 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
 
 void writeStabilityPage(const fs::path& folder) {
     const std::vector<StabilityCell> cells = readStabilityCsv(folder / "stability.csv");
-    writeFile(folder / "stability.html", stabilityHtml(allTests(cells), cells, folder));
+    writeFile(folder / "stability.html", stabilityHtml(testsOf(cells), cells, folder));
 }
 
 } // namespace obscura

@@ -26,12 +26,14 @@ struct StabilityOptions {
     std::vector<std::string> configurations; // tested_technique.h
     std::filesystem::path folder;
     ImageSize size{320, 180}; // of the tests' images; some derive theirs from it
+    std::vector<std::string> tests; // of still pictures, by id; those in motion have their own list
     std::optional<Motion> motion = {};
 };
 
 // All tests of still pictures, in the order of the page's columns; those in motion (temporal.h)
 // follow them.
 std::vector<StabilityTest> stabilityTests();
+std::vector<std::string> stillTestIds();
 // The defaults of every technique of the table that sees only the screen.
 std::vector<std::string> screenTechniques();
 
@@ -39,7 +41,8 @@ std::vector<std::string> screenTechniques();
 using StabilityProgress = std::function<void(double, const std::string&)>;
 
 // Runs the tests. The CSV is written again after each technique, so that finished ones are kept,
-// and the page at the end. A context must be current. Returns all that stands in the CSV.
+// and the page at the end. A context must be current; an unknown test is an Error. Returns all that
+// stands in the CSV.
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress);
 

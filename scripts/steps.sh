@@ -62,7 +62,7 @@ count_apt() {
          END { print done + 0, total + 0 }' "$log"
 }
 
-count_ninja() { grep -oE '^\[[0-9]+/[0-9]+\]' "$log" | tail -n 1 | tr -d '[]' | tr '/' ' '; }
+count_ninja() { grep -aoE '^\[[0-9]+/[0-9]+\]' "$log" | tail -n 1 | tr -d '[]' | tr '/' ' '; }
 
 count_nothing() { echo "0 0"; }
 

@@ -5,4 +5,8 @@ layout(binding = 2) uniform sampler2D metallicRoughnessMap;
 uniform vec4 baseColour; // linear; multiplied with the map
 uniform vec4 surface;    // alpha cutoff (0: opaque), metallic, roughness, normal scale (0: no map)
 
-vec4 baseColourAt(vec2 uv) { return baseColour * texture(baseColourMap, uv); }
+// On a triangle seen edge-on, interpolated places know no bounds; and llvmpipe's anisotropic filter
+// counts through the texels of a footprint in floats: beyond 2^24 for ever.
+vec4 baseColourAt(vec2 uv) {
+    return baseColour * texture(baseColourMap, clamp(uv, -1024.0, 1024.0));
+}
