@@ -122,7 +122,7 @@ std::vector<GrowthRow> costGrowth(const GrowthPlan& plan, const View& view, cons
     const auto constant = [](double value) {
         return [value](const TechniqueSetting&) { return value; };
     };
-    const ImageSize size = plan.sizes[plan.sizes.size() / 2];
+    const ImageSize size = plan.sizes.front();
     const Probe probe(subject, view.camera, size.width, size.height, normals, timing.seed);
     measuring.measure(probe, plan.techniques, view.radius, "samples", samplesOf);
     for (const double radius : plan.radii)

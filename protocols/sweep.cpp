@@ -102,7 +102,7 @@ SweepStudy quick(SweepStudy study, std::size_t testViews) {
     study.frames = 3;
     study.seconds = 0.1;
     if (study.growth) {
-        study.growth->sizes = {{160, 90}, {320, 180}, {640, 360}};
+        study.growth->sizes = {{240, 135}, {480, 270}, {960, 540}};
         study.growth->radii.resize(std::min<std::size_t>(study.growth->radii.size(), 3));
     }
     return study;

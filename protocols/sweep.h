@@ -12,7 +12,7 @@ namespace obscura {
 struct GrowthPlan {
     std::string view;                         // name of one of the study's
     std::vector<double> radii;                // metres
-    std::vector<ImageSize> sizes;             //
+    std::vector<ImageSize> sizes;             // the first is that of all other axes
     std::vector<int> poles;                   // thin poles before a wall: depth complexity
     std::vector<TechniqueSetting> techniques; // each technique's values of the setting that counts
                                               // its samples, in order; the middle one stands for it

@@ -196,13 +196,13 @@ class VaoPlusPlusSwitches : public GlTest {
 
 TEST_F(VaoPlusPlusSwitches, AdaptiveWithATinyDiameterIsTheFullSet) {
     Settings settings = with("adaptive", 1);
-    settings.set("adaptiveDiameter", 0.01);
+    settings.set("adaptiveDiameter", 1e-5);
     EXPECT_EQ(picture(settings).pixels, picture(start()).pixels);
 }
 
 TEST_F(VaoPlusPlusSwitches, AdaptiveWithAHugeDiameterIsTheSmallestSet) {
     Settings settings = with("adaptive", 1);
-    settings.set("adaptiveDiameter", 1e4);
+    settings.set("adaptiveDiameter", 16);
     Settings two = start();
     two.set("samples", 2);
     EXPECT_EQ(picture(settings).pixels, picture(two).pixels);
@@ -211,7 +211,7 @@ TEST_F(VaoPlusPlusSwitches, AdaptiveWithAHugeDiameterIsTheSmallestSet) {
 // A wall face-on shows a disc of one size: each level is one of the sets, twice the lines for twice
 // the area.
 TEST_F(VaoPlusPlusSwitches, AdaptiveDoublesLinesWithTheDiscsArea) {
-    const double diameter = 1 * height / (2 * std::tan(25 * M_PI / 180)) / 5; // pixels, at 5 m
+    const double diameter = 1 / (2 * std::tan(25 * M_PI / 180)) / 5; // image heights, at 5 m
     Scene scene;
     addQuad(scene, {glm::vec3(-50, -50, 0), glm::vec3(50, -50, 0), glm::vec3(50, 50, 0),
                     glm::vec3(-50, 50, 0)});

@@ -55,6 +55,8 @@ void switchOnFor(Settings& settings, std::string_view name) {
     if (settings.technique().id == "vao_plus_plus") {
         if (name == "blurSize" || name == "blurDeviation")
             settings.set("blur", 2);
+        if (name == "culling")
+            settings.set("adaptive", 0); // which leaves little to cull on a small image
         if (name.starts_with("luminance"))
             settings.set("luminanceSensitivity", 1);
         if (name == "luminancePower")

@@ -11,8 +11,6 @@
 // - Lines follow lines of sight through pixel centres and are clipped at the camera
 //   (ball.glsl); the paper's prepared lengths hold for parallel ones. Equation 2's sum is
 //   taken over the lines themselves.
-// - The disc that decides on the number of lines is given in pixels, not in shares of the screen:
-//   it is pixels that the depth buffer has no more of.
 // - Equation 3 as printed clamps before it divides, so its base can be negative; clamped after.
 // - Equation 4 is read as the share of a hidden line's length that counts as blocked; the rest is
 //   open. Were the line's whole weight meant, also in equation 2, a ball all hidden would stay
@@ -60,12 +58,12 @@ bool hasSet(int count) { return count >= 2 && count <= 32 && (count & (count - 1
 int firstPoint(int count) { return hasSet(count) ? count - 2 : 62; }
 
 // Section 4.1: two lines up to the given diameter of the ball's disc, twice as many for twice the
-// area.
+// area. Relative to the screen, so that every resolution gets the same numbers.
 int lineCount(Ball ball) {
     int most = int(settings.samples);
     if (settings.adaptive < 0.5)
         return most;
-    float diameter = 2.0 * ball.radius / centreDepth(ball) * frame.depth.w * frame.size.y;
+    float diameter = 2.0 * ball.radius / centreDepth(ball) * frame.depth.w;
     float doublings = 2.0 * log2(max(diameter / settings.adaptiveDiameter, 1.0));
     return min(most, 2 << int(min(doublings, 20.0)));
 }
