@@ -28,7 +28,7 @@ Camera dollied(const Camera& start, int frame, int) { return closer(start, frame
 Camera orbited(const Camera& start, int frame, int) {
     Camera camera = start;
     const glm::dvec3 target = vec(start.target);
-    camera.position = array(target + aboutUp(start, vec(start.position) - target, 0.2 * frame));
+    camera.position = array(target + aboutUp(start, vec(start.position) - target, -0.2 * frame));
     return camera;
 }
 

@@ -134,9 +134,8 @@ std::vector<StabilityCell> cellsInMotion(const Motion& motion,
         if (each.settings.has("radius"))
             each.settings.set("radius", motion.radius);
     return measureTemporal(
-               {motion.scene, motion.start, motion.radius, configurations, motion.effort, folder},
-               progress)
-        .cells;
+        {motion.scene, motion.start, motion.radius, configurations, motion.effort, folder},
+        progress);
 }
 
 } // namespace
@@ -168,10 +167,10 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
         writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
     }
     if (options.motion) {
-        const auto inMotion = cellsInMotion(*options.motion, tested, options.folder,
-                                            [&](double share, const std::string& note) {
-                                                progress(still + (1 - still) * share, "in motion: " + note);
-                                            });
+        const auto inMotion = cellsInMotion(
+            *options.motion, tested, options.folder, [&](double share, const std::string& note) {
+                progress(still + (1 - still) * share, "in motion: " + note);
+            });
         cells.insert(cells.end(), inMotion.begin(), inMotion.end());
         writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
     }

@@ -40,7 +40,7 @@ table { border-collapse: collapse; font-size: .85rem; }
                padding: .3rem .1rem; margin: 0 auto; white-space: nowrap; }
 .map tbody th { text-align: left; font-weight: 600; white-space: nowrap; padding: 0 .6rem 0 0;
                 position: sticky; left: 0; background: white; }
-.map td a { display: block; min-width: 3.6rem; padding: .22rem .45rem; text-align: right;
+.map td a { display: block; min-width: 3rem; padding: .22rem .35rem; text-align: right;
             text-decoration: none; font-variant-numeric: tabular-nums; }
 .map td.count { text-align: right; padding: 0 .6rem; font-weight: 600; }
 .map a:focus-visible, .map a:hover { outline: 3px solid #0072B2; outline-offset: -3px; }
@@ -175,6 +175,18 @@ class PageWriter {
         return html + "</tbody></table></div>\n";
     }
 
+    std::string animation() const {
+        for (const StabilityCell& cell : cells_)
+            if (moves(cell))
+                return fmt::format("<h2>The worst flicker</h2>\n<p class=\"aside\">From left to "
+                                   "right: visibility, the truth, unreal change.</p>\n"
+                                   "<figure>{}</figure>\n",
+                                   picture(cell, "The worst flicker",
+                                           fmt::format("{}, {}: {}", cell.configuration, cell.test,
+                                                       spelt(cell.value))));
+        return {};
+    }
+
     std::string sections() const {
         std::string html;
         for (const StabilityTest& test : tests_)
@@ -211,7 +223,13 @@ class PageWriter {
             test.id, escaped(test.title), escaped(test.setUp), escaped(test.measure), test.pass,
             test.fail);
         if (const StabilityCell* truth = headline(cells_, truthName, test))
-            html += figure(test, *truth, "ray tracing, and the scene");
+            html +=
+                figure(test, *truth,
+                       truth->value == 0
+                           ? "ray tracing, and the scene"
+                           : fmt::format("ray tracing with other rays: {}. Nothing below can be "
+                                         "told from perfect",
+                                         spelt(truth->value)));
         for (const std::string& name : names_)
             if (const StabilityCell* cell = headline(cells_, name, test))
                 html += figure(test, *cell, fmt::format("{}: {}", name, spelt(cell->value)));
@@ -222,22 +240,31 @@ class PageWriter {
                        const std::string& caption) const {
         if (cell.picture.empty())
             return {};
-        const fs::path picture = folder_ / cell.picture;
-        const std::string image = dataAddress(
-            picture.extension() == ".gif" ? "image/gif" : "image/png", readFile(picture));
-        return fmt::format("<figure id=\"{}\"><img loading=\"lazy\" alt=\"{}, {}\" src=\"{}\"/>"
-                           "<figcaption><b>{}</b>{}</figcaption>{}</figure>\n",
-                           figureId(test, cell.configuration), escaped(test.title),
-                           escaped(cell.configuration), image, escaped(caption),
-                           cell.note.empty() ? "" : " (" + escaped(cell.note) + ")",
+        return fmt::format("<figure id=\"{}\">{}{}</figure>\n", figureId(test, cell.configuration),
+                           picture(cell, test.title, caption),
                            otherMeasures(test, cell.configuration));
+    }
+
+    std::string picture(const StabilityCell& cell, std::string_view title,
+                        const std::string& caption) const {
+        return fmt::format(
+            "<img loading=\"lazy\" alt=\"{}, {}\" src=\"{}\"/><figcaption><b>{}</b>{}"
+            "</figcaption>",
+            escaped(title), escaped(cell.configuration),
+            dataAddress(moves(cell) ? "image/gif" : "image/png", readFile(folder_ / cell.picture)),
+            escaped(caption), cell.note.empty() ? "" : " (" + escaped(cell.note) + ")");
+    }
+
+    static bool moves(const StabilityCell& cell) {
+        return fs::path(cell.picture).extension() == ".gif";
     }
 
     // Shown where the cell is picked.
     std::string otherMeasures(const StabilityTest& test, const std::string& name) const {
         std::string rows;
         for (const StabilityCell& cell : cells_)
-            if (cell.configuration == name && cell.test == test.id && cell.measure != test.measure)
+            if (cell.configuration == name && cell.test == test.id &&
+                cell.measure != test.measure && !moves(cell))
                 rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>",
                                     escaped(cell.measure), spelt(cell.value), escaped(cell.note));
         return rows.empty() ? "" : "<table class=\"more\">" + rows + "</table>";
@@ -274,7 +301,7 @@ std::string stabilityHtml(std::span<const StabilityTest> tests,
                           const std::vector<StabilityCell>& cells, const fs::path& folder) {
     const PageWriter writer(tests, cells, folder);
     return std::string(head) + std::string(introduction) + key() + writer.heatMap() +
-           writer.sections() +
+           writer.animation() + writer.sections() +
            fmt::format("<p class=\"aside\">Measured by obscura-bench {} ({}).</p>\n", version(),
                        commit()) +
            std::string(tail);

@@ -32,7 +32,7 @@ double flickerOf(const Scene& scene, const View& view, const Settings& matched,
                               quickTemporalEffort(),
                               folder};
     double worst = 0;
-    for (const StabilityCell& cell : measureTemporal(study).cells)
+    for (const StabilityCell& cell : measureTemporal(study))
         if (cell.measure == unrealChange99)
             worst = std::max(worst, cell.value);
     return worst;

@@ -54,14 +54,15 @@ class Measurement {
         std::iota(all_.begin(), all_.end(), std::size_t{0});
     }
 
-    TemporalResult run() {
+    std::vector<StabilityCell> run() {
         for (const std::string& id : study_.effort.tests) {
             const TemporalTest& test = temporalTest(id);
             test.cyclesNoise ? measureStill(test) : measureMotion(test);
             ++testsDone_;
         }
-        result_.animation = writeAnimation(study_, shots_, noiseSeed, records_);
-        return std::move(result_);
+        if (auto animated = writeAnimation(study_, shots_, noiseSeed, records_))
+            cells_.push_back(std::move(*animated));
+        return std::move(cells_);
     }
 
   private:
@@ -169,9 +170,8 @@ class Measurement {
     void addCell(std::size_t configuration, const TemporalTest& test, std::string_view measure,
                  double value, const std::string& picture = {}, const std::string& note = {}) {
         const NamedSettings& named = study_.configurations[configuration];
-        result_.cells.push_back({named.name, std::string(named.settings.technique().id),
-                                 std::string(test.test.id), std::string(measure), value, picture,
-                                 note});
+        cells_.push_back({named.name, std::string(named.settings.technique().id),
+                          std::string(test.test.id), std::string(measure), value, picture, note});
     }
 
     const TemporalStudy& study_;
@@ -179,7 +179,7 @@ class Measurement {
     Shots shots_;
     std::vector<std::size_t> all_; // configurations
     std::vector<MotionRecord> records_;
-    TemporalResult result_;
+    std::vector<StabilityCell> cells_;
     int testsDone_ = 0;
 };
 
@@ -191,7 +191,8 @@ TemporalEffort fullTemporalEffort() {
 
 TemporalEffort quickTemporalEffort() { return {192, 108, 12, 128, {"still", "dolly", "turn"}}; }
 
-TemporalResult measureTemporal(const TemporalStudy& study, const TemporalProgress& progress) {
+std::vector<StabilityCell> measureTemporal(const TemporalStudy& study,
+                                           const TemporalProgress& progress) {
     if (study.effort.frames < 3)
         throw Error(
             fmt::format("expected at least 3 frames a test, found {}", study.effort.frames));

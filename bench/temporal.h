@@ -44,16 +44,15 @@ struct TemporalStudy {
 // The name of the 99th percentile of the headline among the cells' measures.
 inline constexpr std::string_view unrealChange99 = "unreal change, 99th percentile";
 
-struct TemporalResult {
-    std::vector<StabilityCell> cells;
-    std::string animation; // GIF in the folder (temporal_animation.h); "" when there is none
-};
+// The measure of the one cell whose picture moves (temporal_animation.h).
+inline constexpr std::string_view worstFlicker = "the worst flicker of all";
 
 // Told the share done, 0 ... 1, and the test at hand.
 using TemporalProgress = std::function<void(double, const std::string&)>;
 
 // A GL context must be current. Fewer frames than 3, an unknown test or a file that cannot be
 // written is an Error.
-TemporalResult measureTemporal(const TemporalStudy& study, const TemporalProgress& progress = {});
+std::vector<StabilityCell> measureTemporal(const TemporalStudy& study,
+                                           const TemporalProgress& progress = {});
 
 } // namespace obscura

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 namespace obscura {
 
@@ -35,6 +34,8 @@ std::vector<std::size_t> ranked(const TemporalStudy& study, const MotionRecord& 
 std::optional<Choice> choose(const TemporalStudy& study, std::span<const MotionRecord> records) {
     std::optional<Choice> choice;
     for (const MotionRecord& record : records) {
+        if (record.truths.size() < static_cast<std::size_t>(study.effort.frames))
+            continue;
         const std::vector<std::size_t> order = ranked(study, record);
         if (order.size() >= 2 &&
             (!choice || record.unreal[order.back()] > choice->record->unreal[choice->worst]))
@@ -52,11 +53,12 @@ Image unrealChange(const Shot& now, const Shot& before, const FrameStep& step, s
 
 } // namespace
 
-std::string writeAnimation(const TemporalStudy& study, const Shots& shots, std::uint64_t noiseSeed,
-                           std::span<const MotionRecord> records) {
+std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Shots& shots,
+                                            std::uint64_t noiseSeed,
+                                            std::span<const MotionRecord> records) {
     const std::optional<Choice> choice = choose(study, records);
     if (!choice)
-        return {};
+        return std::nullopt;
     const std::array which{choice->worst, choice->best};
     const TemporalTest& test = *choice->record->test;
     std::vector<Image8> frames;
@@ -79,7 +81,17 @@ std::string writeAnimation(const TemporalStudy& study, const Shots& shots, std::
     }
     const std::string name = fmt::format("pictures/{}-worst-and-best.gif", test.test.id);
     writeGif(study.folder / name, frames, framesPerSecond);
-    return name;
+    const NamedSettings& worst = study.configurations[choice->worst];
+    const auto unreal = [&](std::size_t i) { return choice->record->unreal[i]; };
+    return StabilityCell{worst.name,
+                         std::string(worst.settings.technique().id),
+                         std::string(test.test.id),
+                         std::string(worstFlicker),
+                         unreal(choice->worst),
+                         name,
+                         fmt::format("below it the steadiest, {}: {:.3f}",
+                                     study.configurations[choice->best].name,
+                                     unreal(choice->best))};
 }
 
 } // namespace obscura

@@ -3,6 +3,8 @@
 #include "bench/temporal.h"
 #include "bench/temporal_tests.h"
 
+#include <optional>
+
 namespace obscura {
 
 // A test with a moving camera, as measured.
@@ -15,9 +17,11 @@ struct MotionRecord {
 
 // Writes the worst flicker as an animated GIF, and below it the best on the same path: visibility,
 // the truth, and unreal change (temporal_measures.h). Only techniques that show half of the truth's
-// occlusion or more are considered: what shows nothing is steady. Gives the file's name in the
-// study's folder, or "" with fewer than two such techniques.
-std::string writeAnimation(const TemporalStudy& study, const Shots& shots, std::uint64_t noiseSeed,
-                           std::span<const MotionRecord> records);
+// occlusion or more are considered: what shows nothing is steady; and only paths on which every
+// frame is another. Gives the worst one's cell, with the file in the study's folder as its picture;
+// none with fewer than two such techniques.
+std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Shots& shots,
+                                            std::uint64_t noiseSeed,
+                                            std::span<const MotionRecord> records);
 
 } // namespace obscura

@@ -23,6 +23,8 @@ std::vector<StabilityCell> sample() {
         {"hbao steps=8", "hbao", "halo", "darkness", -0.1234, "pictures/halo.png", "5°, \"far\""},
         {"hbao steps=8", "hbao", "halo", "the most", 0.5},
         {"hbao steps=8", "hbao", "scale", "RMSE", 0.01},
+        {"hbao steps=8", "hbao", "halo", "worst flicker", 0.25, "pictures/worst.gif",
+         "below: none"},
         {"none", "none", "halo", "darkness"}};
 }
 
@@ -31,6 +33,7 @@ class StabilityFiles : public testing::Test {
     StabilityFiles() {
         writeFile(folder / "pictures/truth.png", "truth's bytes");
         writeFile(folder / "pictures/halo.png", "halo's bytes");
+        writeFile(folder / "pictures/worst.gif", "it moves");
     }
     ~StabilityFiles() override { fs::remove_all(folder); }
     const fs::path folder = fs::path(testing::TempDir()) /
@@ -70,7 +73,7 @@ TEST_F(StabilityFiles, BrokenCsvNamesTheLine) {
     };
     const std::string whole = stabilityCsv(tests, sample());
     EXPECT_THAT(fault("a,b\n"), HasSubstr("unknown column"));
-    EXPECT_THAT(fault(whole + "x,y,z\n"), HasSubstr(":7: expected 8 columns, found 3"));
+    EXPECT_THAT(fault(whole + "x,y,z\n"), HasSubstr(":8: expected 8 columns, found 3"));
     EXPECT_THAT(fault(whole + "a,b,c,d,many,,,\n"), HasSubstr("expected a number, found \"many\""));
 }
 
@@ -83,6 +86,9 @@ TEST_F(StabilityFiles, PageHasNumbersPicturesAndNothingFromElsewhere) {
     EXPECT_THAT(page, HasSubstr("href=\"#halo-hbao_steps=8\""));
     EXPECT_THAT(page, HasSubstr("<figure id=\"halo-hbao_steps=8\">"));
     EXPECT_THAT(page, HasSubstr("data:image/png;base64,aGFsbydzIGJ5dGVz")); // "halo's bytes"
+    EXPECT_THAT(page, HasSubstr("data:image/gif;base64,aXQgbW92ZXM="));     // "it moves"
+    EXPECT_THAT(page, HasSubstr("<b>hbao steps=8, halo: 0.250</b> (below: none)"));
+    EXPECT_THAT(page, Not(HasSubstr("<td>worst flicker</td>")));
     EXPECT_THAT(page, HasSubstr("<td>the most</td><td>0.500</td>"));
     EXPECT_THAT(page, HasSubstr("Halo behind a &lt;pole&gt;"));
     EXPECT_THAT(page, HasSubstr("<td class=\"count\">1</td>")); // hbao fails one of two

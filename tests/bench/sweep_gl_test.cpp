@@ -73,6 +73,15 @@ const SweepRow& rowOf(const Sweep& sweep, const std::string& configuration) {
     throw Error("no row of " + configuration);
 }
 
+// The least budget of matched RMSE that a configuration meets.
+double leastBudget(const Sweep& sweep, const std::string& configuration) {
+    std::vector<double> values;
+    for (const SweepRow& row : sweep.rows)
+        if (row.configuration == configuration)
+            values.push_back(row.matched.rmse);
+    return upperBound(values);
+}
+
 TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     const Sweep odd = run("1/2"), even = run("2/2");
     const Sweep first = mergeSweeps({folder_ / "1", folder_ / "2"}, folder_ / "whole");
@@ -101,10 +110,11 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
         EXPECT_EQ(again.rows[i].total.median, odd.rows[i].total.median);
 
     // The race gives the answer that measuring everything gives.
-    const double least = rowOf(first, "gtao").matched.rmse;
     Budget loose, strict, impossible;
     loose.rmse = 1;
-    impossible.rmse = 0.1 * least;
+    strict.rmse = 1.001 * leastBudget(first, "starcraft samples=64"); // what no other meets
+    ASSERT_LT(*strict.rmse, std::min(leastBudget(first, "gtao"), leastBudget(first, "none")));
+    impossible.rmse = 0.1 * gtao.matched.rmse;
     const SweepPlan plan{folder_ / "choice", folder_ / "cache"};
     const auto chosen = [&](const Budget& budget) {
         const Choice choice = choose(study_, budget, {}, plan, context_.driver(),
@@ -113,6 +123,9 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     };
     EXPECT_EQ(chosen(loose), "none");
     EXPECT_EQ(chosenFrom(first, loose), "none");
+    EXPECT_EQ(chosen(strict), "starcraft samples=64");
+    EXPECT_EQ(chosenFrom(first, strict), "starcraft samples=64");
+    EXPECT_EQ(chosen(impossible), "");
     EXPECT_EQ(chosenFrom(first, impossible), "");
 }
 
