@@ -46,21 +46,7 @@ void flushToDisk(const fs::path& path) {
         fail(path, "cannot be flushed to disk");
 }
 
-} // namespace
-
-std::string readFile(const fs::path& path) {
-    if (fs::is_directory(path))
-        throw Error({path.string(), 0, 0, {}}, "expected a file, found a folder");
-    const File file = open(path, "rb", "cannot be read");
-    std::string content;
-    char buffer[65536];
-    while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, file.get()))
-        content.append(buffer, count);
-    if (std::ferror(file.get()))
-        fail(path, "cannot be read to its end");
-    return content;
-}
-
+// Beside `path`, hidden.
 fs::path unfinishedPath(const fs::path& path) {
     if (path.has_parent_path())
         fs::create_directories(path.parent_path());
@@ -74,6 +60,21 @@ void publish(const fs::path& unfinished, const fs::path& path) {
     flushToDisk(unfinished);
     fs::rename(unfinished, path);
     flushToDisk(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+} // namespace
+
+std::string readFile(const fs::path& path) {
+    if (fs::is_directory(path))
+        throw Error({path.string(), 0, 0, {}}, "expected a file, found a folder");
+    const File file = open(path, "rb", "cannot be read");
+    std::string content;
+    char buffer[65536];
+    while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, file.get()))
+        content.append(buffer, count);
+    if (std::ferror(file.get()))
+        fail(path, "cannot be read to its end");
+    return content;
 }
 
 void removeUnfinishedFiles(const fs::path& folder) {

@@ -16,11 +16,7 @@ std::string readFile(const std::filesystem::path& path);
 // one, never half of one. Creates missing parent folders.
 void writeFile(const std::filesystem::path& path, std::string_view content);
 
-// A name beside `path` for a file being written by another library; keeps the extension (writers
-// choose formats by it). Finish with publish(), which flushes it to disk and renames it to `path`.
-std::filesystem::path unfinishedPath(const std::filesystem::path& path);
-void publish(const std::filesystem::path& unfinished, const std::filesystem::path& path);
-// What killed runs were writing in a folder when they died: those names, never published.
+// What killed runs were writing in a folder when they died.
 void removeUnfinishedFiles(const std::filesystem::path& folder);
 
 // SHA-256 in parts. hex() ends it: 64 lower-case digits.

@@ -79,17 +79,18 @@ bool writeAll(OIIO::ImageOutput& output, const std::string& name, const OIIO::Im
     return output.close();
 }
 
+// Encoded in memory, for OpenImageIO's PNG writer overlooks a disk that is full; writeFile() does
+// not.
 void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
            std::span<const void* const> images) {
-    const std::filesystem::path unfinished = unfinishedPath(path);
-    const auto output = OIIO::ImageOutput::create(unfinished.string());
-    if (!output || !writeAll(*output, unfinished.string(), spec, type, images)) {
-        std::error_code ignored;
-        std::filesystem::remove(unfinished, ignored);
+    std::vector<unsigned char> encoded;
+    OIIO::Filesystem::IOVecOutput memory(encoded);
+    const auto output = OIIO::ImageOutput::create(path.string(), &memory);
+    if (!output || !output->set_ioproxy(&memory) ||
+        !writeAll(*output, path.string(), spec, type, images))
         throw Error({path.string(), 0, 0, {}},
                     "cannot be written: " + (output ? output->geterror() : OIIO::geterror()));
-    }
-    publish(unfinished, path);
+    writeFile(path, {reinterpret_cast<const char*>(encoded.data()), encoded.size()});
 }
 
 } // namespace

@@ -4,9 +4,13 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <limits>
 
@@ -43,6 +47,34 @@ TEST(ImageFiles, PngHasTheSameBytesEachTime) {
     writePng(file("first.png"), image);
     writePng(file("second.png"), image);
     EXPECT_EQ(readFile(file("first.png")), readFile(file("second.png")));
+}
+
+// A full disk, played by a limit on the size of files: OpenImageIO itself would report a whole PNG.
+TEST(ImageFiles, WhatDoesNotFitIsAnErrorAndLeavesTheOldFile) {
+    const fs::path folder = file("full");
+    fs::remove_all(folder);
+    writePng(folder / "noise.png", Image8{8, 8, 1, std::vector<std::uint8_t>(64, 77)});
+    const std::string before = readFile(folder / "noise.png");
+    Image8 noise{64, 64, 3, {}};
+    for (std::uint32_t i = 0, x = 1; i < 64 * 64 * 3; ++i, x = 1664525 * x + 1013904223)
+        noise.pixels.push_back(static_cast<std::uint8_t>(x >> 24));
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{2000, 2000};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        try {
+            writePng(folder / "noise.png", noise);
+        } catch (const Error&) {
+            ::_exit(0);
+        }
+        ::_exit(1);
+    }
+    int status = -1;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(status, 0);
+    EXPECT_TRUE(readFile(folder / "noise.png") == before);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
 }
 
 // Bars that move: every grey, in another place in each frame.
