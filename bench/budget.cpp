@@ -21,10 +21,11 @@ struct Limit {
     std::optional<double> Budget::*most;
     double ViewResult::*value;
 };
-constexpr Limit errorLimits[] = {
+constexpr Limit limitsOnMeans[] = {
     {"rmse", "RMSE", &Budget::rmse, &ViewResult::rmse},
     {"flip", "FLIP", &Budget::flip, &ViewResult::flip},
     {"litFlip", "FLIP of the lit image", &Budget::litFlip, &ViewResult::litFlip},
+    {"flicker", "flicker", &Budget::flicker, &ViewResult::flicker},
 };
 
 double mean(std::span<const double> values) {
@@ -35,12 +36,10 @@ double mean(std::span<const double> values) {
 
 Budget budgetOf(std::span<const std::string> limits) {
     Budget budget;
-    const std::pair<const char*, std::optional<double> Budget::*> all[] = {
-        {"rmse", &Budget::rmse},
-        {"flip", &Budget::flip},
-        {"litFlip", &Budget::litFlip},
-        {"flicker", &Budget::flicker},
-        {"ms", &Budget::milliseconds}};
+    std::vector<std::pair<const char*, std::optional<double> Budget::*>> all;
+    for (const Limit& limit : limitsOnMeans)
+        all.emplace_back(limit.name, limit.most);
+    all.emplace_back("ms", &Budget::milliseconds);
     std::vector<std::string> names;
     for (const auto& [name, member] : all)
         names.push_back(name);
@@ -55,7 +54,7 @@ Budget budgetOf(std::span<const std::string> limits) {
             throw Error(fmt::format("expected a limit like rmse=0.1, with one of {} before \"=\" "
                                     "and a number of at least 0 after it, found \"{}\"",
                                     fmt::join(names, ", "), limit));
-        budget.*(all[found - names.begin()].second) = value;
+        budget.*(all[static_cast<std::size_t>(found - names.begin())].second) = value;
     }
     return budget;
 }
@@ -75,7 +74,7 @@ double upperBound(std::span<const double> values) {
 
 std::string excess(const Budget& budget, std::span<const ViewResult> views) {
     std::vector<std::pair<double, std::string>> found; // ratio to the limit, words
-    for (const Limit& limit : errorLimits) {
+    for (const Limit& limit : limitsOnMeans) {
         const std::optional<double> most = budget.*limit.most;
         if (!most)
             continue;

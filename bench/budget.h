@@ -17,7 +17,7 @@ struct Budget {
     std::optional<double> rmse;         // of matched visibility, 0 ... 1
     std::optional<double> flip;         // of matched visibility shown as sRGB grey
     std::optional<double> litFlip;      // of the lit image
-    std::optional<double> flicker;      // 99th percentile of reference-relative change
+    std::optional<double> flicker;      // 99th percentile of reference-relative change, worst path
     std::optional<double> milliseconds; // in 95 of 100 frames, on the dearest view
     std::vector<std::string> failures;  // ids of failure tests (stability.h) that must pass
 
@@ -31,6 +31,7 @@ Budget budgetOf(std::span<const std::string> limits);
 struct ViewResult {
     double rmse = 0, flip = 0, litFlip = 0; // NaN: not measured
     double milliseconds = 0;                // 95th percentile
+    double flicker = 0;                     // as in Budget
 };
 
 // The upper end of the one-sided 95 % confidence interval of a mean over views (Student's t; views

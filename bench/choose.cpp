@@ -4,6 +4,7 @@
 #include "bench/timing.h"
 #include "stimuli/match.h"
 #include "stimuli/match_files.h"
+#include "stimuli/truths.h"
 
 #include <fmt/format.h>
 
@@ -91,7 +92,7 @@ class Choosing {
     void measure(Candidate& candidate);
     std::vector<std::size_t> finalists(std::size_t& next);
     void timeAtLength(std::span<const std::size_t> finalists);
-    std::string unsteadiness(const Candidate& candidate);
+    void testSteadiness(std::span<const std::size_t> finalists);
     std::map<std::string, MatchedTechnique> fits(const MatchStudy& study,
                                                  const std::string& folder);
     std::vector<Milliseconds> milliseconds(std::size_t view, const std::vector<Settings>& settings,
@@ -146,7 +147,8 @@ void Choosing::timeAll() {
         choice_.candidates.push_back(std::move(candidate));
         settings.push_back(settingsAt(choice_.candidates.back().configuration, radius, false));
     }
-    const auto times = milliseconds(0, settings, glanceFrames, 0, false);
+    const auto times =
+        milliseconds(0, settings, glanceFrames, std::numeric_limits<double>::infinity(), false);
     for (std::size_t i = 0; i < times.size(); ++i)
         choice_.candidates[i].milliseconds = times[i].median;
     std::stable_sort(
@@ -197,6 +199,7 @@ void Choosing::glance() {
 // Fitted on all training views, measured on all others at full size.
 void Choosing::measure(Candidate& candidate) {
     MatchStudy study = study_.match;
+    study.test.resize(1); // the fit alone is wanted
     study.scores.clear();
     std::erase_if(study.techniques, [&](const TechniqueSetting& each) {
         return each.name != candidate.configuration.setting.name;
@@ -209,8 +212,8 @@ void Choosing::measure(Candidate& candidate) {
         const Image image =
             seen.probe().visibility(settingsAt(candidate.configuration, seen.view().radius, true));
         const ViewErrors errors = seen.errorsOf(image);
-        candidate.views.push_back(
-            {errors.full.rmse, errors.full.flip, errors.lit.flip, 0}); // not timed yet
+        candidate.views.push_back({errors.full.rmse, errors.full.flip, errors.lit.flip, 0,
+                                   0}); // the rest is not known yet
         squares += errors.full.rmse * errors.full.rmse;
         tell("measuring " + candidate.configuration.setting.name);
     }
@@ -223,8 +226,8 @@ std::vector<std::size_t> Choosing::finalists(std::size_t& next) {
     std::vector<std::size_t> found;
     for (; next < choice_.candidates.size(); ++next) {
         Candidate& candidate = choice_.candidates[next];
-        if (!found.empty() && candidate.milliseconds >
-                                  nearlyAlike * choice_.candidates[found.front()].milliseconds)
+        if (!found.empty() &&
+            candidate.milliseconds > nearlyAlike * choice_.candidates[found.front()].milliseconds)
             break;
         if (!candidate.verdict.empty())
             continue;
@@ -262,21 +265,40 @@ void Choosing::timeAtLength(std::span<const std::size_t> finalists) {
         choice_.candidates[finalists[k]] = std::move(order[k]);
 }
 
-std::string Choosing::unsteadiness(const Candidate& candidate) {
-    const View& view = stages_.view(0).view();
-    const Settings settings = settingsAt(candidate.configuration, view.radius, true);
-    const std::string& name = candidate.configuration.setting.name;
-    if (budget_.flicker) {
-        tell("flicker of " + name);
-        const double flicker =
-            flickerOf(stages_.scene(0), view, settings, plan_.folder / "flicker");
-        if (flicker > *budget_.flicker)
-            return fmt::format("flicker {:.3f}, budget {:.3f}", flicker, *budget_.flicker);
+// Failure tests, which are quick, and then motion from every view, for all of them at once: the
+// truth of each frame is what takes long.
+void Choosing::testSteadiness(std::span<const std::size_t> finalists) {
+    std::vector<std::size_t> left;
+    for (const std::size_t f : finalists) {
+        Candidate& candidate = choice_.candidates[f];
+        candidate.verdict = excess(budget_, candidate.views);
+        if (candidate.verdict.empty() && !budget_.failures.empty()) {
+            tell("failure tests of " + candidate.configuration.setting.name);
+            candidate.verdict = failuresOf(
+                settingsAt(candidate.configuration, study_.match.test.front().radius, true),
+                budget_.failures, plan_.folder / "failures");
+        }
+        if (candidate.verdict.empty())
+            left.push_back(f);
     }
-    if (budget_.failures.empty())
-        return "";
-    tell("failure tests of " + name);
-    return failuresOf(settings, budget_.failures, plan_.folder / "failures");
+    if (!budget_.flicker || left.empty())
+        return;
+    for (std::size_t i = 0; i < stages_.count(); ++i) {
+        const View& view = study_.match.test[i];
+        tell("flicker from " + view.name);
+        std::vector<NamedSettings> named;
+        for (const std::size_t f : left) {
+            const Configuration& configuration = choice_.candidates[f].configuration;
+            named.push_back(
+                {configuration.setting.name, settingsAt(configuration, view.radius, true)});
+        }
+        const auto flicker =
+            flickerOf(stages_.scene(i), view, named, plan_.folder / "flicker" / view.name);
+        for (std::size_t k = 0; k < left.size(); ++k)
+            choice_.candidates[left[k]].views[i].flicker = flicker[k];
+    }
+    for (const std::size_t f : left)
+        choice_.candidates[f].verdict = excess(budget_, choice_.candidates[f].views);
 }
 
 Choice Choosing::run() {
@@ -285,19 +307,17 @@ Choice Choosing::run() {
     glance();
     for (std::size_t next = 0; next < choice_.candidates.size() && !choice_.chosen;) {
         const std::vector<std::size_t> final = finalists(next);
-        if (!final.empty())
-            timeAtLength(final);
-        for (const std::size_t f : final) {
-            Candidate& candidate = choice_.candidates[f];
-            candidate.verdict = excess(budget_, candidate.views);
-            if (candidate.verdict.empty())
-                candidate.verdict = unsteadiness(candidate);
-            if (candidate.verdict.empty()) {
-                candidate.rung = Rung::chosen;
-                choice_.chosen = f;
-                break;
-            }
-        }
+        if (final.empty())
+            break;
+        timeAtLength(final);
+        testSteadiness(final);
+        const auto first = std::find_if(final.begin(), final.end(), [&](std::size_t f) {
+            return choice_.candidates[f].verdict.empty();
+        });
+        if (first == final.end())
+            continue;
+        choice_.chosen = *first;
+        choice_.candidates[*first].rung = Rung::chosen;
     }
     choice_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
@@ -309,24 +329,32 @@ Choice Choosing::run() {
 
 Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress) {
+    if (budget.litFlip && !study.light)
+        throw Error("expected a study with [light] for a limit on litFlip, found one without");
+    requireMeasurable(study,
+                      static_cast<double>(study.match.test.size()) *
+                          truthCost(study.sizes.front(), study.match.rays),
+                      plan.hours);
     return Choosing(study, budget, folders, plan, driver, progress).run();
 }
 
 std::string chosenFrom(const Sweep& sweep, const Budget& budget) {
     struct Measured {
-        double milliseconds = 0;
+        double milliseconds = 0; // sum over views
         std::vector<ViewResult> views;
     };
     std::map<std::string, Measured> all;
+    std::size_t most = 0;
     for (const SweepRow& row : sweep.rows) {
         Measured& measured = all[row.configuration];
         measured.milliseconds += row.total.median;
         measured.views.push_back(
-            {row.matched.rmse, row.matched.flip, row.litMatched.flip, row.total.high});
+            {row.matched.rmse, row.matched.flip, row.litMatched.flip, row.total.high, 0});
+        most = std::max(most, measured.views.size());
     }
     std::string best;
     for (const auto& [name, measured] : all)
-        if (excess(budget, measured.views).empty() &&
+        if (measured.views.size() == most && excess(budget, measured.views).empty() &&
             (best.empty() || measured.milliseconds < all[best].milliseconds))
             best = name;
     return best;

@@ -43,7 +43,8 @@ Choice choose(const SweepStudy& study, const Budget& budget, const Folders& fold
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress);
 
 // The same question answered from a sweep that has measured everything; index of a row's
-// configuration by name, "" when none meets the budget. What choose() is held to.
+// configuration by name, "" when none that was measured on all views meets the budget (flicker and
+// failures left out). What choose() is held to.
 std::string chosenFrom(const Sweep& sweep, const Budget& budget);
 
 } // namespace obscura

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace obscura {
 
@@ -98,7 +99,38 @@ std::string points(const Choice& choice, Rung rung, double least) {
             text += fmt::format("{} {} {}\n", std::max(candidate.milliseconds, least),
                                 rung == Rung::glance ? candidate.glance : candidate.rmse,
                                 '"' + nameOf(candidate) + '"');
-    return text.empty() ? "NaN NaN ''\ne\n" : text + "e\n";
+    return text;
+}
+
+// All candidates were seen alike at a glance, so there they can be compared.
+std::string glanceFront(const Choice& choice, double least) {
+    std::vector<ParetoPoint> points;
+    for (const Candidate& candidate : choice.candidates)
+        points.push_back(
+            {std::max(candidate.milliseconds, least), candidate.glance, nameOf(candidate)});
+    std::string text;
+    for (const std::size_t i : paretoFront(points))
+        text += fmt::format("{} {}\n", points[i].milliseconds, points[i].error);
+    return text;
+}
+
+struct Series {
+    std::string style, title, data; // data: gnuplot's lines
+};
+
+// What has no data is left out: gnuplot ends with a segmentation fault where all of a series is
+// NaN.
+std::string plotOf(std::span<const Series> all) {
+    std::string plots, data;
+    for (const Series& series : all) {
+        if (series.data.empty())
+            continue;
+        plots +=
+            fmt::format("{} '-' {} {}", plots.empty() ? "plot" : ",", series.style,
+                        series.title.empty() ? "notitle" : "title " + gnuplotText(series.title));
+        data += series.data + "e\n";
+    }
+    return plots + "\n" + data;
 }
 
 Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& choice) {
@@ -119,14 +151,17 @@ Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& cho
                                      "nohead dashtype 2 lc rgb '#D55E00'\nset label {1} at graph "
                                      "0.99, first {0} right offset 0, 0.6 tc rgb '#D55E00'\n",
                                      *budget.rmse, gnuplotText("budget"));
-    figure.script += fmt::format(
-        "plot '-' using 1:2 with points pt 6 ps 0.8 lc rgb '#888888' title {}, '-' using 1:2 with "
-        "points pt 7 ps 1 lc rgb '#0072B2' title {}, '-' using 1:2 with points pt 7 ps 1.8 lc rgb "
-        "'#009E73' title {}, '-' using 1:2:3 with labels offset 0, 1 notitle\n",
-        gnuplotText("seen at a glance (small, one view)"),
-        gnuplotText("measured on held-out views"), gnuplotText("chosen"));
-    figure.script += points(choice, Rung::glance, least) + points(choice, Rung::held_out, least) +
-                     points(choice, Rung::chosen, least) + points(choice, Rung::chosen, least);
+    const std::string chosen = points(choice, Rung::chosen, least);
+    const Series series[] = {
+        {"using 1:2 with steps lc rgb '#888888'", "Pareto front at a glance",
+         glanceFront(choice, least)},
+        {"using 1:2 with points pt 6 ps 0.8 lc rgb '#888888'", "seen at a glance (small, one view)",
+         points(choice, Rung::glance, least)},
+        {"using 1:2 with points pt 7 ps 1 lc rgb '#0072B2'", "measured on held-out views",
+         points(choice, Rung::held_out, least)},
+        {"using 1:2 with points pt 7 ps 1.8 lc rgb '#009E73'", "chosen", chosen},
+        {"using 1:2:3 with labels offset 0, 1", "", chosen}};
+    figure.script += plotOf(series);
     return figure;
 }
 
@@ -168,6 +203,8 @@ void writeChoice(const std::filesystem::path& folder, const SweepStudy& study, c
     if (choice.chosen)
         writeFile(folder / "choice.toml",
                   fragment(study, budget, choice.candidates[*choice.chosen]));
+    else
+        std::filesystem::remove(folder / "choice.toml"); // of an earlier budget
 }
 
 } // namespace obscura

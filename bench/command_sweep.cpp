@@ -105,8 +105,7 @@ std::string frontText(const Sweep& sweep) {
     std::string text;
     const ErrorMeasure& measure = errorMeasures().front();
     for (const SweepGroup& group : groupsOf(sweep.rows)) {
-        text += fmt::format("{} {}x{}, {}: the front\n", group.scene, group.width, group.height,
-                            measure.name);
+        text += fmt::format("{}, {}: the front\n", titleOf(group), measure.name);
         for (const std::size_t i : paretoFront(paretoPoints(group, measure)))
             text += fmt::format("  {:<34} {:>9.3g} ms  {:6.3f} x starcraft 16  {:.4f}\n",
                                 group.points[i].configuration, group.points[i].total.median,
@@ -150,9 +149,9 @@ struct ChooseOptions {
 
 // What measuring everything would have chosen, by the rows of the study's size.
 std::string answerOf(Sweep sweep, const SweepStudy& study, const Budget& budget) {
-    if (sweep.machine.study != study.match.sha256)
-        throw Error("expected --sweep to name a sweep of this study, found one of another study "
-                    "or of an earlier text of it");
+    if (sweep.machine.study != identityOf(study))
+        throw Error("expected --sweep to name a sweep of this study with these options, found one "
+                    "of another study, of an earlier text of it, or with others");
     const ImageSize& size = study.sizes.front();
     std::erase_if(sweep.rows, [&](const SweepRow& row) {
         return row.width != size.width || row.height != size.height;
@@ -191,9 +190,9 @@ int runChoose(const ChooseOptions& options) {
     const gl::Context context(options.study.device);
     SweepStudy study = studyOf(options, folders);
     adjust(study, options.study, quickChooseViews);
-    study.sizes.resize(1);
     const std::string bySweep =
         options.sweep.empty() ? "" : answerOf(readSweep(options.sweep), study, budget);
+    study.sizes.resize(1);
     const fs::path folder =
         options.study.out.empty() ? fs::path("choose-" + study.match.name) : options.study.out;
     Reporting reporting("choosing");
@@ -204,7 +203,8 @@ int runChoose(const ChooseOptions& options) {
     fmt::print("{}", choiceText(study, budget, choice));
     if (!bySweep.empty())
         fmt::print("By the sweep of everything (errors and milliseconds alone): {}\n", bySweep);
-    fmt::print("In {}: choice.toml for a protocol's include, choice.svg\n", folder.string());
+    fmt::print("In {}: {}choice.svg and choice.csv\n", folder.string(),
+               choice.chosen ? "choice.toml for a protocol's include, " : "");
     return choice.chosen ? 0 : 1;
 }
 
@@ -258,8 +258,9 @@ std::vector<Command> sweepCommands(CLI::App& app) {
         ->add_option("--limit", options->limits,
                      "rmse, flip, litFlip, flicker or ms = NUMBER; may be repeated")
         ->required();
-    choosing->add_option("--must-pass", options->failures,
-                         "a test of obscura-bench stability that must not fail; may be repeated")
+    choosing
+        ->add_option("--must-pass", options->failures,
+                     "a test of obscura-bench stability that must not fail; may be repeated")
         ->check(CLI::IsMember(stillTestIds()));
     choosing->add_option("--sweep", options->sweep,
                          "folder of a finished sweep of the study: also say what it would choose");

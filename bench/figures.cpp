@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -33,7 +34,7 @@ set lmargin at screen 0.085
 set rmargin at screen 0.64
 set tmargin at screen 0.97
 set bmargin at screen 0.12
-set xlabel 'milliseconds'
+set xlabel 'milliseconds (what is free stands at the left edge)'
 set ylabel 'RMSE of visibility, matched'
 )";
 
@@ -139,21 +140,28 @@ std::string technique(std::size_t index) {
 // Nothing where nothing has both a time and an error.
 std::optional<Figure> scatter(const SweepGroup& group, const std::vector<std::string>& techniques,
                               std::size_t number) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const SweepRow& row : group.points)
+        if (row.total.low > 0)
+            least = std::min(least, row.total.low);
+    // What is free has no logarithm: it stands at the left edge.
+    const auto shown = [&](double value) { return value == 0 ? least / 2 : value; };
     std::vector<ParetoPoint> points;
     std::vector<double> milliseconds, errors;
     std::map<std::size_t, std::string> lines; // by technique
     for (const SweepRow& row : group.points) {
-        const ParetoPoint point{row.total.median, errorMeasures().front().of(row),
+        const ParetoPoint point{shown(row.total.median), errorMeasures().front().of(row),
                                 row.configuration};
-        if (!(point.milliseconds > 0) || std::isnan(point.error))
+        if (std::isnan(point.milliseconds) || std::isnan(point.error))
             continue;
+        const double low = shown(row.total.low), high = shown(row.total.high);
         points.push_back(point);
-        milliseconds.insert(milliseconds.end(), {row.total.low, row.total.median, row.total.high});
+        milliseconds.insert(milliseconds.end(), {low, point.milliseconds, high});
         errors.push_back(point.error);
         lines[indexOf(techniques, row.technique)] +=
-            format("{} {} {} {}\n", row.total.median, point.error, row.total.low, row.total.high);
+            format("{} {} {} {}\n", point.milliseconds, point.error, low, high);
     }
-    if (points.empty())
+    if (points.empty() || std::isinf(least))
         return std::nullopt;
     const std::vector<std::size_t> front = paretoFront(points);
     const Axis across = logarithmicAxis(milliseconds), up = linearAxis(errors);
@@ -168,8 +176,7 @@ std::optional<Figure> scatter(const SweepGroup& group, const std::vector<std::st
     }
     return Figure{
         format("scatter-{}-{}-{}x{}", number, fileName(group.scene), group.width, group.height),
-        format("{}, {}×{}: milliseconds against matched RMSE", group.scene, group.width,
-               group.height),
+        titleOf(group) + ": milliseconds against matched RMSE",
         style + ticks("x", across) + ticks("y", up) + scatterFrame +
             scatterKey(techniques, present, points, front) +
             frontNumbers(points, front, across, up) + data + "plot " + plotList(elements) + "\n",

@@ -64,7 +64,7 @@ std::vector<std::string> axesOf(const std::vector<Growth>& growth) {
 
 std::string axisTitle(const std::string& axis) {
     static const std::map<std::string, std::string> titles = {
-        {"samples", "samples per pixel"},
+        {"samples", "value of the setting that counts samples"},
         {"radius", "radius, m"},
         {"pixels", "pixels, millions"},
         {"silhouettes", "share of pixels at a depth edge"}};

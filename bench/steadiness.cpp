@@ -12,29 +12,28 @@ namespace obscura {
 
 namespace {
 
-// "hbao steps=8 ...", as failure tests name configurations; they have a radius of their own.
+// "hbao steps=8", as failure tests name configurations, which also names their pictures: what
+// differs from the table's defaults. They have a radius of their own.
 std::string configurationOf(const Settings& settings) {
     std::string text(settings.technique().id);
-    for (const auto& [name, value] : settings.named())
-        if (name != "radius")
-            text += fmt::format(" {}={}", name, value);
+    for (const Parameter& parameter : settings.technique().parameters)
+        if (parameter.name != "radius" && settings[parameter.name] != parameter.value)
+            text += fmt::format(" {}={}", parameter.name, settings[parameter.name]);
     return text;
 }
 
 } // namespace
 
-double flickerOf(const Scene& scene, const View& view, const Settings& matched,
-                 const std::filesystem::path& folder) {
-    const TemporalStudy study{scene,
-                              view.camera,
-                              view.radius,
-                              {{std::string(matched.technique().id), matched}},
-                              quickTemporalEffort(),
-                              folder};
-    double worst = 0;
-    for (const StabilityCell& cell : measureTemporal(study))
-        if (cell.measure == unrealChange99)
-            worst = std::max(worst, cell.value);
+std::vector<double> flickerOf(const Scene& scene, const View& view,
+                              const std::vector<NamedSettings>& matched,
+                              const std::filesystem::path& folder) {
+    const auto cells =
+        measureTemporal({scene, view.camera, view.radius, matched, quickTemporalEffort(), folder});
+    std::vector<double> worst(matched.size(), 0.0);
+    for (const StabilityCell& cell : cells)
+        for (std::size_t i = 0; i < matched.size(); ++i)
+            if (cell.configuration == matched[i].name && cell.measure == unrealChange99)
+                worst[i] = std::max(worst[i], cell.value);
     return worst;
 }
 

@@ -8,11 +8,13 @@
 #include "bench/sweep_page.h"
 #include "bench/timing.h"
 #include "protocols/files.h"
+#include "protocols/random.h"
 #include "renderer/fetches.h"
 #include "stimuli/match.h"
 #include "stimuli/page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <set>
@@ -96,22 +98,12 @@ std::string keyOf(const std::string& configuration, const std::string& scene,
 
 // Rows of an earlier run count when nothing that decides them has changed since.
 void Sweeping::open() {
-    sweep_.machine = machineOf(driver_, timing_, study_.match.sha256);
+    sweep_.machine = machineOf(driver_, timing_, identityOf(study_));
     removeUnfinishedFiles(plan_.folder);
     if (!fs::exists(plan_.folder / "sweep.json"))
         return;
     Sweep known = readSweep(plan_.folder);
-    const auto same = [&](const std::string& what, const std::string& then,
-                          const std::string& now) {
-        if (then != now)
-            throw Error({(plan_.folder / "sweep.json").string(), 0, 0, {}},
-                        fmt::format("expected the {} \"{}\" that the folder's rows were measured "
-                                    "with, found \"{}\"; name another folder by --out",
-                                    what, then, now));
-    };
-    same("study", known.machine.study, sweep_.machine.study);
-    same("program", known.machine.program, sweep_.machine.program);
-    same("driver", known.machine.renderer, sweep_.machine.renderer);
+    joinMachines(sweep_.machine, std::move(known.machine), "now", plan_.folder);
     sweep_.rows = std::move(known.rows);
     sweep_.growth = std::move(known.growth);
     for (const SweepRow& row : sweep_.rows)
@@ -136,11 +128,7 @@ void Sweeping::estimate() {
             total_ += todo * configurationCost(size);
         }
     total_ += references + growthCost();
-    if (references > plan_.hours * 3600)
-        throw Error(
-            fmt::format("expected references of at most {:g} h, found views, sizes and rays "
-                        "that take about {:.1f} h; ask for fewer, or allow it by --hours",
-                        plan_.hours, references / 3600));
+    requireMeasurable(study_, references, plan_.hours);
 }
 
 void Sweeping::match() {
@@ -148,10 +136,6 @@ void Sweeping::match() {
     std::erase_if(study.techniques, [&, i = -1](const TechniqueSetting&) mutable {
         return ++i % plan_.parts != plan_.part - 1;
     });
-    for (const TechniqueSetting& each : study.techniques)
-        if (settingsOf(each, 1).technique().reads & rays)
-            throw Error(each.place, "expected a technique that runs on the GPU, found one that "
-                                    "traces rays: it is the reference");
     double matched = 0;
     const MatchResult result =
         obscura::match(study, folders_, plan_.folder / "match", plan_.cache, driver_,
@@ -165,6 +149,7 @@ void Sweeping::match() {
         configurations_.push_back({technique.setting, technique.fitted});
 }
 
+// Neighbours in a study are much alike, and machines drift: those timed together are drawn by lot.
 std::vector<std::size_t> Sweeping::missing(const View& view, const ImageSize& size) const {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < study_.match.techniques.size(); ++i)
@@ -172,6 +157,7 @@ std::vector<std::size_t> Sweeping::missing(const View& view, const ImageSize& si
             !measured_.contains(keyOf(study_.match.techniques[i].name, sceneOf(view), view.name,
                                       view.radius, size.width, size.height)))
             result.push_back(i / static_cast<std::size_t>(plan_.parts));
+    Random(study_.match.seed, "groups of " + view.name).shuffle(result);
     return result;
 }
 
@@ -189,7 +175,7 @@ void Sweeping::measureGroup(MeasuredView& seen, std::span<const std::size_t> gro
         fmt::format("{} {}x{}", seen.view().name, seen.size().width, seen.size().height);
     std::vector<Settings> settings;
     for (const std::size_t i : group)
-        settings.push_back(settingsAt(configurations_[i], seen.view().radius, false));
+        settings.push_back(settingsAt(configurations_[i], seen.view().radius, true));
     const double before = done_, cost = static_cast<double>(group.size()) * study_.seconds;
     const auto times =
         timeTechniques(seen.probe(), settings, seen.view().radius, timingPlan(), [&](double share) {
@@ -212,6 +198,8 @@ SweepRow Sweeping::rowOf(MeasuredView& seen, const Configuration& configuration,
     row.technique = std::string(settings.technique().id);
     row.name = variedName(row.configuration);
     row.settings = settingsText(settings);
+    for (const auto& [name, value] : configuration.fitted)
+        row.fitted += fmt::format("{}{}={:g}", row.fitted.empty() ? "" : " ", name, value);
     row.scene = sceneOf(seen.view());
     row.view = seen.view().name;
     row.radius = seen.view().radius;
@@ -225,7 +213,7 @@ SweepRow Sweeping::rowOf(MeasuredView& seen, const Configuration& configuration,
     row.toGbuffer = time.total.median / time.gbuffer;
     row.toStarcraft = time.total.median / time.starcraft;
     row.bytes = time.bytes / (1.0 * row.width * row.height);
-    row.fetches = fetchesPerPixel(settings);
+    row.fetches = fetchesPerPixel(settings) * (1 + guardShare(settings, row.width, row.height));
     addErrors(row, seen, configuration);
     return row;
 }
@@ -316,6 +304,38 @@ Sweep Sweeping::run() {
 }
 
 } // namespace
+
+std::string identityOf(const SweepStudy& study) {
+    std::string text = fmt::format("{}\n{} {:g} {}\n", study.match.sha256, study.frames,
+                                   study.seconds, study.match.rays);
+    const auto add = [&](const ImageSize& size) {
+        text += fmt::format("{}x{} ", size.width, size.height);
+    };
+    add(study.match.training);
+    for (const std::vector<View>* views : {&study.match.train, &study.match.test})
+        for (const View& view : *views)
+            text += fmt::format("\n{} {:g}", view.name, view.radius);
+    std::for_each(study.sizes.begin(), study.sizes.end(), add);
+    if (study.growth) {
+        std::for_each(study.growth->sizes.begin(), study.growth->sizes.end(), add);
+        text += fmt::format("\n{}", fmt::join(study.growth->radii, " "));
+    }
+    return sha256(text);
+}
+
+void requireMeasurable(const SweepStudy& study, double referenceSeconds, double hours) {
+    for (const TechniqueSetting& each : study.match.techniques)
+        if (settingsOf(each, 1).technique().reads & rays)
+            throw Error(each.place, "expected a technique that runs on the GPU, found one that "
+                                    "traces rays: it is the reference");
+    for (std::size_t i = 0; i < study.match.train.size(); ++i)
+        referenceSeconds += truthCost(study.match.training, study.match.rays);
+    if (referenceSeconds > hours * 3600)
+        throw Error(
+            fmt::format("expected references of at most {:g} h, found views, sizes and rays "
+                        "that take about {:.1f} h; ask for fewer, or allow it by --hours",
+                        hours, referenceSeconds / 3600));
+}
 
 Sweep sweep(const SweepStudy& study, const Folders& folders, const SweepPlan& plan,
             const gl::Driver& driver, const SweepProgress& progress) {

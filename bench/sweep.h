@@ -20,6 +20,15 @@ struct SweepPlan {
     double hours = 1;             // that references may take; more is an Error that says how long
 };
 
+// What decides a study's rows besides program and machine: its text, and what the command line
+// changed.
+std::string identityOf(const SweepStudy& study);
+
+// What neither sweep() nor choose() can do is an Error: a technique that traces rays, and
+// references that take longer than `hours`: `referenceSeconds` of test views, and those of training
+// views.
+void requireMeasurable(const SweepStudy& study, double referenceSeconds, double hours);
+
 // Called now and then: how much is done, of how much (about seconds), and what is at hand.
 using SweepProgress = std::function<void(double done, double total, const std::string& note)>;
 

@@ -61,6 +61,7 @@ void eachField(Row& row, Visit visit) {
     visit("technique", row.technique);
     visit("name", row.name);
     visit("settings", row.settings);
+    visit("fitted", row.fitted);
     visit("scene", row.scene);
     visit("view", row.view);
     visit("radius", row.radius);
@@ -186,24 +187,6 @@ std::string keptEqual(const std::string& name, const std::string& value) {
     return name == "method" ? value.substr(0, value.find(':')) : value;
 }
 
-// Adds what may differ, refuses what may not.
-void join(SweepMachine& all, SweepMachine part, const fs::path& first, const fs::path& folder) {
-    std::map<std::string, std::string*> others;
-    eachField(part, [&](const std::string& name, std::string& value) { others[name] = &value; });
-    eachField(all, [&](const std::string& name, std::string& value) {
-        const std::string& other = *others.at(name);
-        if (keptEqual(name, value) == keptEqual(name, other))
-            return;
-        if (name != "clocks" && name != "date")
-            throw Error({(folder / "sweep.json").string(), 0, 0, name},
-                        fmt::format("expected \"{}\", as in {}, found \"{}\"; parts can be merged "
-                                    "only if this is the same",
-                                    value, first.string(), other));
-        if (value.find(other) == value.npos)
-            value += (value.empty() ? "" : ", ") + other;
-    });
-}
-
 // Remembers where each thing was measured.
 class Measured {
   public:
@@ -219,8 +202,8 @@ class Measured {
 };
 
 std::string identityOf(const SweepRow& row) {
-    return fmt::format("\"{}\" on view \"{}\" of \"{}\" at {} x {}", row.configuration, row.view,
-                       row.scene, row.width, row.height);
+    return fmt::format("\"{}\" on view \"{}\" of \"{}\" at {} x {}, R {}", row.configuration,
+                       row.view, row.scene, row.width, row.height, row.radius);
 }
 
 std::string identityOf(const GrowthRow& row) {
@@ -231,6 +214,24 @@ std::string identityOf(const GrowthRow& row) {
 
 std::string sweepCsv(const std::vector<SweepRow>& rows) { return csvOf(rows); }
 std::string growthCsv(const std::vector<GrowthRow>& rows) { return csvOf(rows); }
+
+void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first,
+                  const fs::path& folder) {
+    std::map<std::string, std::string*> others;
+    eachField(part, [&](const std::string& name, std::string& value) { others[name] = &value; });
+    eachField(all, [&](const std::string& name, std::string& value) {
+        const std::string& other = *others.at(name);
+        if (keptEqual(name, value) == keptEqual(name, other))
+            return;
+        if (name != "clocks" && name != "date")
+            throw Error({(folder / "sweep.json").string(), 0, 0, name},
+                        fmt::format("expected \"{}\", as {}, found \"{}\"; rows can stand "
+                                    "together only if this is the same",
+                                    value, first, other));
+        if (value.find(other) == value.npos)
+            value += (value.empty() ? "" : ", ") + other;
+    });
+}
 
 void writeSweep(const fs::path& folder, const Sweep& sweep) {
     writeFile(folder / "sweep.csv", sweepCsv(sweep.rows));
@@ -250,7 +251,7 @@ Sweep mergeSweeps(const std::vector<fs::path>& parts, const fs::path& folder) {
         Sweep part = readSweep(parts[i]);
         if (i == 0)
             all.machine = part.machine;
-        join(all.machine, part.machine, parts.front(), parts[i]);
+        joinMachines(all.machine, part.machine, "in " + parts.front().string(), parts[i]);
         for (SweepRow& row : part.rows) {
             measured.add(identityOf(row), parts[i] / "sweep.csv");
             if (!row.thumbnail.empty()) {

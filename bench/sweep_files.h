@@ -19,9 +19,13 @@ void writeSweep(const std::filesystem::path& folder, const Sweep& sweep);
 // An Error names file, line and column.
 Sweep readSweep(const std::filesystem::path& folder);
 
+// Adds to `all` the clocks and dates of another run, whose folder an Error names if anything else
+// differs: studies, programs, methods, machines. `first` says where those of `all` come from.
+void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first,
+                  const std::filesystem::path& folder);
+
 // Writes the parts of one study as one sweep, with their thumbnails, into a folder of its own. An
-// Error says what was measured twice and where, or in what the parts' studies, programs, methods or
-// machines differ; only clocks and dates may, and all of them are listed.
+// Error says what was measured twice and where, or in what they differ.
 Sweep mergeSweeps(const std::vector<std::filesystem::path>& parts,
                   const std::filesystem::path& folder);
 

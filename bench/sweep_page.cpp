@@ -165,8 +165,7 @@ std::string viewsWarning(const SweepGroup& group) {
 std::string groupHtml(const SweepGroup& group, const std::vector<std::string>& techniques,
                       std::size_t firstId) {
     std::string html = format("<section class=\"points\" id=\"g{}\">\n", firstId) +
-                       element("h2", format("{}, {}×{}", group.scene, group.width, group.height)) +
-                       viewsWarning(group);
+                       element("h2", titleOf(group)) + viewsWarning(group);
     html += "<div class=\"chart\"><div>" + eachMeasure([&](const ErrorMeasure& measure) {
                 return "<figure>" + scatterSvg(group, measure, techniques, firstId) +
                        "<figcaption>" + frontSentence(group, measure) + "</figcaption></figure>";
@@ -194,7 +193,7 @@ std::string ablationSection(const std::vector<SweepGroup>& groups) {
     return section(
         "ablation", "What the extensions of VAO++ save",
         "Milliseconds by samples, each extension alone and both together; in per cent "
-        "of plain VAO; the fastest in bold. In grey, what the paper printed: "
+        "of plain VAO; the fastest in bold. Below, matched RMSE. In grey, what the paper printed: "
         "Bokšanský, Pospíšil and Bittner 2017, Table 1, in Unity on a GTX 970 (per cent from "
         "these milliseconds). "
         "Ratios can be compared across machines, milliseconds cannot.",

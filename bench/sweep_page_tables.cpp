@@ -104,11 +104,12 @@ std::string ablationCells(const AblationPart& part, std::size_t samples) {
     for (std::size_t v = 0; v < line.size(); ++v) {
         const bool published = *part.kind != 0; // in hundredths
         const std::string text = published ? format("{:.2f}", line[v]) : readable(line[v]);
-        const double percent = 100 * line[v] / line[0];
+        const double percent = 100 * line[v] / line[0], rmse = part.column.rmse[samples][v];
         html +=
-            format("<td class=\"number {}{}\">{}{}</td>", part.kind, v ? "" : " group",
+            format("<td class=\"number {}{}\">{}{}{}</td>", part.kind, v ? "" : " group",
                    line[v] == fastest ? "<b>" + text + "</b>" : text,
-                   v && !std::isnan(percent) ? format(" <small>{:.0f} %</small>", percent) : "");
+                   v && !std::isnan(percent) ? format(" <small>{:.0f} %</small>", percent) : "",
+                   published || std::isnan(rmse) ? "" : format("<br/><small>{:.4f}</small>", rmse));
     }
     return html;
 }
@@ -238,8 +239,7 @@ std::string frameRatesHtml(const FrameRates& rates) {
         }
         body += cell(sum / static_cast<double>(line.milliseconds.size())) + "</tr>\n";
     }
-    return "<div>" + element("h3", format("{}, {}×{}", rates.scene, rates.width, rates.height)) +
-           wide(head + "</tr>", body) + "</div>\n";
+    return "<div>" + element("h3", rates.title) + wide(head + "</tr>", body) + "</div>\n";
 }
 
 std::string slopesHtml(const std::vector<Growth>& growth,

@@ -24,11 +24,12 @@ struct SweepRow {
     std::string technique;     // id in the table
     std::string name;          // of the study's technique that it varies
     std::string settings;      // complete, "name=value" in the table's order, spaces between
+    std::string fitted;        // settings that matching changed, alike
     std::string scene, view;   // file or built-in name; view's name
     double radius = 0;         // metres
     int width = 0, height = 0;
 
-    int frames = 0;               // timed
+    int frames = 0;               // timed, as matched: a radius changes the cost
     Milliseconds total;           // all passes of the technique
     std::array<double, 4> work{}; // medians by kind of work, in the order of workNames()
                                   // (renderer/technique.h); parts of total
@@ -36,7 +37,7 @@ struct SweepRow {
     double toGbuffer = 0, toStarcraft = 0; // ratios of medians in the same run; the latter to
                                            // `starcraft` with 16 samples, blurred
     double bytes = 0;                      // of GPU memory per pixel that the technique adds
-    double fetches = 0; // of textures per pixel, as declared (renderer/fetches.h)
+    double fetches = 0; // of textures per pixel of the image, as declared (renderer/fetches.h)
 
     // Against rays through the whole scene, and against the same integral over the depth buffer
     // alone: visibility as the technique leaves it, and after matching (fitted on training views).

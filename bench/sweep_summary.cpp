@@ -1,11 +1,14 @@
 #include "bench/sweep_summary.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 namespace obscura {
 
@@ -106,19 +109,23 @@ SweepRow overViews(Rows rows) {
     return point;
 }
 
+std::string titleOf(const SweepGroup& group) {
+    return fmt::format("{}, {}×{}, R {:g} m", group.scene, group.width, group.height, group.radius);
+}
+
 std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows) {
     std::vector<std::string> scenes;
-    std::map<std::pair<std::string, std::pair<int, int>>, std::vector<SweepRow>> byGroup;
+    std::map<std::tuple<std::string, int, int, double>, std::vector<SweepRow>> byGroup;
     for (const SweepRow& row : rows) {
         if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end())
             scenes.push_back(row.scene);
-        byGroup[{row.scene, {row.width, row.height}}].push_back(row);
+        byGroup[{row.scene, row.width, row.height, row.radius}].push_back(row);
     }
     std::vector<SweepGroup> groups;
     for (const std::string& scene : scenes)
         for (const auto& [key, members] : byGroup)
-            if (key.first == scene) {
-                groups.push_back({scene, key.second.first, key.second.second, {}});
+            if (const auto& [of, width, height, radius] = key; of == scene) {
+                groups.push_back({scene, width, height, radius, {}});
                 addPoints(members, groups.back());
             }
     return groups;

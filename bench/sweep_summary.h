@@ -10,18 +10,22 @@ namespace obscura {
 
 // What charts and tables show of a sweep.
 
-// One configuration at one scene and resolution, all views taken together: of times, fetches, bytes
-// and ratios the median over views (so the percentiles are those of the frames of a typical view);
-// of RMSE the root of the mean square, of other errors the mean; NaN as soon as one view has none;
-// frames are summed, `view` lists the names, text and thumbnail are the first view's.
+// One configuration at one scene, resolution and radius, all views taken together: of times,
+// fetches, bytes and ratios the median over views (so the percentiles are those of the frames of a
+// typical view); of RMSE the root of the mean square, of other errors the mean; NaN as soon as one
+// view has none; frames are summed, `view` lists the names, text and thumbnail are the first
+// view's.
 SweepRow overViews(std::span<const SweepRow> rows);
 
-// The configurations of one scene and resolution, by rising milliseconds.
+// The configurations of one scene, resolution and radius, by rising milliseconds.
 struct SweepGroup {
     std::string scene;
     int width = 0, height = 0;
+    double radius = 0; // metres
     std::vector<SweepRow> points;
 };
+// "atrium, 960×540, R 0.5 m"
+std::string titleOf(const SweepGroup& group);
 // In the order in which scenes first appear; of a scene, the smallest picture first.
 std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows);
 

@@ -36,7 +36,7 @@ struct Cell {
     std::string settings;
     std::string culling; // "" where it is off, so that it fits to every kind
     std::size_t samples = 0, variant = 0;
-    double milliseconds = 0;
+    double milliseconds = 0, rmse = 0;
 };
 
 bool fits(const Cell& cell, const std::string& settings, const std::string& culling) {
@@ -58,7 +58,8 @@ std::vector<Cell> cellsOf(const SweepGroup& group) {
         if (at != ablationSamples.end())
             cells.push_back({spelt(settings), culling,
                              static_cast<std::size_t>(at - ablationSamples.begin()),
-                             (adaptive ? 1u : 0u) + (culling.empty() ? 0u : 2u), row.total.median});
+                             (adaptive ? 1u : 0u) + (culling.empty() ? 0u : 2u), row.total.median,
+                             row.matched.rmse});
     }
     return cells;
 }
@@ -66,8 +67,9 @@ std::vector<Cell> cellsOf(const SweepGroup& group) {
 AblationTable::Column emptyColumn(const SweepGroup& group) {
     AblationTable::Column column;
     column.title = fmt::format("{}×{}", group.width, group.height);
-    for (auto& line : column.milliseconds)
-        line.fill(unmeasured);
+    for (auto* values : {&column.milliseconds, &column.rmse})
+        for (auto& line : *values)
+            line.fill(unmeasured);
     return column;
 }
 
@@ -94,8 +96,10 @@ void fill(AblationTable& table, const std::string& settings, const std::string& 
           const SweepGroup& group) {
     AblationTable::Column column = emptyColumn(group);
     for (const Cell& cell : cellsOf(group))
-        if (fits(cell, settings, culling))
+        if (fits(cell, settings, culling)) {
             column.milliseconds[cell.samples][cell.variant] = cell.milliseconds;
+            column.rmse[cell.samples][cell.variant] = cell.rmse;
+        }
     table.columns.push_back(column);
 }
 
@@ -154,13 +158,15 @@ const AblationTable& publishedAblation() {
                                          {0.93, 0.92, 1.04, 1.02},
                                          {1.53, 1.27, 1.37, 1.2},
                                          {2.67, 1.88, 2.04, 1.59},
-                                         {5.04, 3.09, 3.38, 2.33}}}},
+                                         {5.04, 3.09, 3.38, 2.33}}},
+                                       {}},
                                       {"3840×2160",
                                        {{{2.75, 3.14, 3.65, 3.88},
                                          {4.08, 3.91, 4.31, 4.26},
                                          {6.87, 5.53, 5.77, 4.97},
                                          {12.74, 8.24, 8.67, 6.59},
-                                         {23.71, 13.76, 14.47, 9.77}}}}}};
+                                         {23.71, 13.76, 14.47, 9.77}}},
+                                       {}}}};
     return table;
 }
 
@@ -170,9 +176,9 @@ std::vector<FrameRates> frameRates(const std::vector<SweepRow>& rows) {
         std::vector<const SweepRow*> members;
         for (const SweepRow& row : rows)
             if (row.scene == group.scene && row.width == group.width &&
-                row.height == group.height && hasDefaultSettings(row))
+                row.height == group.height && row.radius == group.radius && hasDefaultSettings(row))
                 members.push_back(&row);
-        FrameRates rates{group.scene, group.width, group.height, firstViews(members), {}};
+        FrameRates rates{titleOf(group), firstViews(members), {}};
         for (const SweepRow* row : members)
             add(*row, rates);
         if (!rates.lines.empty())

@@ -8,13 +8,14 @@ namespace obscura {
 
 // The tables of two papers, filled with what a sweep measured.
 
-// What the extensions of VAO++ save, as in its Table 1: milliseconds by number of samples (lines),
-// resolution and variant, with all other settings equal. NaN: not measured.
+// What the extensions of VAO++ save, as in its Table 1, and at what error: by number of samples
+// (lines), resolution and variant, with all other settings equal. NaN: not measured.
 struct AblationTable {
     struct Column { // one resolution
         std::string title;
         // By sample count, then plain, adaptive, culling, both.
         std::array<std::array<double, 4>, 5> milliseconds;
+        std::array<std::array<double, 4>, 5> rmse; // matched, full reference; none as printed
     };
     std::string scene, settings; // the settings that are equal in every cell
     std::vector<Column> columns;
@@ -30,15 +31,13 @@ std::vector<AblationTable> ablationTables(const std::vector<SweepGroup>& groups)
 // As printed: Bokšanský, Pospíšil and Bittner 2017, Table 1, on a GTX 970.
 const AblationTable& publishedAblation();
 
-// Frame rates at default settings, as in Table 1 of the thesis from Leeds: one per scene and
-// resolution.
+// Frame rates at default settings, as in Table 1 of the thesis from Leeds: one per group.
 struct FrameRates {
     struct Line { // one technique; NaN for a view without it
         std::string technique;
         std::vector<double> milliseconds; // G-buffer and technique, without lighting; per view
     };
-    std::string scene;
-    int width = 0, height = 0;
+    std::string title;              // of the group
     std::vector<std::string> views; // at most four
     std::vector<Line> lines;
 };

@@ -50,6 +50,8 @@ void runOnce(const Probe& probe, Runner& runner, gl::Timer& timer, bool keep) {
 
 bool wantsMore(const Runner& runner, const TimingPlan& plan) {
     const std::size_t frames = runner.pieces.size();
+    if (runner.settings.technique().passes.empty()) // takes no time, however often
+        return frames < 3;
     return frames < 3 ||
            (frames < static_cast<std::size_t>(plan.frames) && runner.spent < plan.seconds);
 }
@@ -62,21 +64,25 @@ std::vector<std::size_t> shuffled(std::size_t count, Random& random) {
     return order;
 }
 
-// The pixels that a guard band adds to the G-buffer, as a share of it.
-double guardShare(const Settings& settings, int width, int height) {
+// The technique's own textures reach as far as its guard band.
+double paddedBytes(const Settings& settings, int width, int height) {
     const int guard = guardPixels(settings, height);
-    return (width + 2.0 * guard) * (height + 2.0 * guard) / (1.0 * width * height) - 1;
+    return occlusionBytes(settings, width + 2 * guard, height + 2 * guard);
 }
 
 constexpr double gbufferBytes = 4 + 4 + 8; // per pixel: albedo, linear depth, normal
 
+std::vector<double> totalsOf(const Runner& runner, std::size_t frames) {
+    std::vector<double> totals;
+    for (std::size_t frame = 0; frame < frames; ++frame)
+        totals.push_back(runner.total(frame));
+    return totals;
+}
+
 TechniqueTime timeOf(const Runner& runner) {
     TechniqueTime time;
     time.frames = static_cast<int>(runner.pieces.size());
-    std::vector<double> totals;
-    for (std::size_t frame = 0; frame < runner.pieces.size(); ++frame)
-        totals.push_back(runner.total(frame));
-    time.total = summaryOf(totals);
+    time.total = summaryOf(totalsOf(runner, runner.pieces.size()));
     for (std::size_t i = 0; i < runner.order.size(); ++i) {
         std::vector<double> own;
         for (const std::vector<double>& frame : runner.pieces)
@@ -123,11 +129,16 @@ class Group {
                     frameDone();
                 }
         }
+        // Who ran, ran in the first rounds: what it is compared with is taken from these.
         std::vector<TechniqueTime> times;
         for (const Runner& runner : runners_) {
+            const std::size_t rounds = runner.pieces.size();
             times.push_back(timeOf(runner));
-            times.back().gbuffer = summaryOf(gbuffer_).median;
-            times.back().starcraft = times.front().total.median;
+            times.back().gbuffer =
+                summaryOf(
+                    {gbuffer_.begin(), gbuffer_.begin() + static_cast<std::ptrdiff_t>(rounds)})
+                    .median;
+            times.back().starcraft = summaryOf(totalsOf(runners_.front(), rounds)).median;
         }
         return times;
     }
@@ -167,7 +178,7 @@ std::vector<std::vector<std::size_t>> groupsOf(const Probe& probe,
     std::vector<std::vector<std::size_t>> groups(1);
     double bytes = 0;
     for (const std::size_t i : shuffled(techniques.size(), random)) {
-        const double own = occlusionBytes(techniques[i], probe.width(), probe.height());
+        const double own = paddedBytes(techniques[i], probe.width(), probe.height());
         if (bytes + own > plan.bytes && !groups.back().empty()) {
             groups.emplace_back();
             bytes = 0;
@@ -179,6 +190,11 @@ std::vector<std::vector<std::size_t>> groupsOf(const Probe& probe,
 }
 
 } // namespace
+
+double guardShare(const Settings& settings, int width, int height) {
+    const int guard = guardPixels(settings, height);
+    return (width + 2.0 * guard) * (height + 2.0 * guard) / (1.0 * width * height) - 1;
+}
 
 Milliseconds summaryOf(std::vector<double> milliseconds) {
     if (milliseconds.empty())
@@ -216,7 +232,7 @@ std::vector<TechniqueTime> timeTechniques(const Probe& probe, std::span<const Se
         for (std::size_t i = 0; i < groups[g].size(); ++i) {
             TechniqueTime& time = times[groups[g][i]] = own[i + 1];
             const Settings& settings = techniques[groups[g][i]];
-            time.bytes = occlusionBytes(settings, probe.width(), probe.height());
+            time.bytes = paddedBytes(settings, probe.width(), probe.height());
             addGuard(time, settings, probe.width(), probe.height());
         }
     }

@@ -31,8 +31,9 @@ struct TechniqueTime {
     int frames = 0;
     Milliseconds total; // of the technique's passes
     std::vector<PassTime> passes;
-    double gbuffer = 0;   // median of the same group's G-buffer pass: depth, albedo, normals; ms
-    double starcraft = 0; // median of `starcraft` with 16 samples in the same group; ms
+    double gbuffer =
+        0; // median of the G-buffer pass in the same rounds: depth, albedo, normals; ms
+    double starcraft = 0; // median of `starcraft` with 16 samples in the same rounds; ms
     double bytes = 0;     // of GPU memory that the technique adds
 };
 
@@ -43,6 +44,9 @@ using TimingProgress = std::function<void(double)>;
 std::vector<TechniqueTime> timeTechniques(const Probe& probe, std::span<const Settings> techniques,
                                           double radius, const TimingPlan& plan,
                                           const TimingProgress& progress = {});
+
+// The pixels that a guard band adds, as a share of the image's.
+double guardShare(const Settings& settings, int width, int height);
 
 // Of numbers in any order; 0 without any. Percentiles are interpolated between ranks (R's type 7).
 Milliseconds summaryOf(std::vector<double> milliseconds);

@@ -82,7 +82,7 @@ TEST_F(SweepFiles, HaveAColumnForEachFieldAndAnEmptyCellForNaN) {
         return at == names.end() ? ""
                                  : records[1].cells[static_cast<std::size_t>(at - names.begin())];
     };
-    EXPECT_EQ(names.size(), 9u + 13 + 6 * 4 + 1);
+    EXPECT_EQ(names.size(), 10u + 13 + 6 * 4 + 1);
     EXPECT_EQ(cell("configuration"), "hbao");
     EXPECT_EQ(cell("full_raw_rmse"), "");
     EXPECT_EQ(cell("lit_matched_flip"), "0");
@@ -92,13 +92,13 @@ TEST_F(SweepFiles, HaveAColumnForEachFieldAndAnEmptyCellForNaN) {
 
 TEST_F(SweepFiles, NameThePlaceOfAFault) {
     EXPECT_EQ(errorAfter("sweep.csv", ",640,", ",6.40,"),
-              "s/sweep.csv:2:8: width: expected a whole number, found \"6.40\"");
+              "s/sweep.csv:2:9: width: expected a whole number, found \"6.40\"");
     EXPECT_EQ(errorAfter("sweep.csv", ",0.5,", ",half,"),
-              "s/sweep.csv:2:7: radius: expected a number, found \"half\"");
+              "s/sweep.csv:2:8: radius: expected a number, found \"half\"");
     EXPECT_EQ(errorAfter("growth.csv", "axis", "axes"),
               "s/growth.csv:1: axes: unknown column; did you mean \"axis\"?");
     EXPECT_THAT(errorAfter("sweep.csv", "atrium,", ""),
-                testing::StartsWith("s/sweep.csv:2: expected 47 columns, found 46"));
+                testing::StartsWith("s/sweep.csv:2: expected 48 columns, found 47"));
     EXPECT_THAT(errorAfter("sweep.json", "\"vendor\"", "\"seller\""),
                 HasSubstr("s/sweep.json: vendor: expected a text of this name"));
     EXPECT_THAT(errorAfter("sweep.json", ",", ";"), HasSubstr("line 2, column"));
@@ -156,7 +156,7 @@ TEST_F(SweepParts, MayNotMeasureTheSameTwice) {
     second_.rows[1].thumbnail = "";
     EXPECT_EQ(mergeError(),
               "b/sweep.csv: \"hbao samples=2 blur=1\" on view \"view 1\" of \"atrium\" at "
-              "640 x 360 was measured already in a/sweep.csv");
+              "640 x 360, R 0.5 was measured already in a/sweep.csv");
     second_.rows.pop_back();
     second_.rows.resize(1);
     second_.growth = {first_.growth[0]};
