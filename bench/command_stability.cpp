@@ -2,11 +2,13 @@
 #include "bench/stability.h"
 #include "bench/temporal_tests.h"
 #include "protocols/progress.h"
+#include "protocols/version.h"
 #include "renderer/builtin.h"
 #include "renderer/gl/context.h"
 #include "renderer/render.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -25,6 +27,12 @@ struct Options {
     std::vector<double> camera{7.6, 1.2, -0.9, -4, 2.4, 1.2};
     double fovDegrees = 60, radius = 0.5;
     int frames = 0;
+
+    TemporalEffort effort() const {
+        TemporalEffort effort = quick ? quickTemporalEffort() : fullTemporalEffort();
+        effort.frames = frames > 0 ? frames : effort.frames;
+        return effort;
+    }
 };
 
 std::vector<std::string> motionTestIds() {
@@ -35,11 +43,31 @@ std::vector<std::string> motionTestIds() {
 }
 
 // Those of `all` that were asked for; all of them unless any were.
-std::vector<std::string> asked(std::vector<std::string> all, const std::vector<std::string>& tests) {
+std::vector<std::string> asked(std::vector<std::string> all,
+                               const std::vector<std::string>& tests) {
     std::erase_if(all, [&](const std::string& id) {
         return !tests.empty() && std::find(tests.begin(), tests.end(), id) == tests.end();
     });
     return all;
+}
+
+// All that decides the numbers besides tests and configurations.
+std::string aboutOf(const Options& options, const gl::Driver& driver) {
+    nlohmann::ordered_json about;
+    about["program"] = fmt::format("obscura {} ({})", version(), commit());
+    about["renderer"] = driver.renderer;
+    about["glVersion"] = driver.version;
+    about["size"] =
+        fmt::format("{} x {}", options.stability.size.width, options.stability.size.height);
+    const TemporalEffort& effort = options.effort();
+    about["motion"] = {{"scene", options.scene},
+                       {"camera", options.camera},
+                       {"fov", options.fovDegrees},
+                       {"radius", options.radius},
+                       {"frames", effort.frames},
+                       {"rays", effort.rays},
+                       {"size", fmt::format("{} x {}", effort.width, effort.height)}};
+    return about.dump(2) + "\n";
 }
 
 Motion motionOf(const Options& options) {
@@ -52,11 +80,7 @@ Motion motionOf(const Options& options) {
     view.camera.position = {c[0], c[1], c[2]};
     view.camera.target = {c[3], c[4], c[5]};
     view.camera.fovDegrees = options.fovDegrees;
-    Motion motion{loadSceneOf(view, {options.scenes, {}}), view.camera, options.radius,
-                  options.quick ? quickTemporalEffort() : fullTemporalEffort()};
-    if (options.frames > 0)
-        motion.effort.frames = options.frames;
-    return motion;
+    return {loadSceneOf(view, {options.scenes, {}}), view.camera, options.radius, options.effort()};
 }
 
 int run(Options options) {
@@ -78,6 +102,7 @@ int run(Options options) {
         stability.motion->effort.tests = asked(motionTestIds(), options.tests);
     if (stability.motion->effort.tests.empty())
         stability.motion.reset();
+    stability.about = aboutOf(options, context.driver());
     Progress progress("stability", 1);
     runStability(stability,
                  [&](double done, const std::string& note) { progress.update(done, note); });

@@ -140,14 +140,45 @@ std::vector<StabilityCell> cellsInMotion(const Motion& motion,
 
 } // namespace
 
+namespace {
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+// What the folder has of other tests and configurations, measured alike.
+std::vector<StabilityCell> keptCells(const StabilityOptions& options) {
+    const fs::path csv = options.folder / "stability.csv", json = options.folder / "stability.json";
+    if (!fs::exists(csv))
+        return {};
+    if (!fs::exists(json) || readFile(json) != options.about)
+        throw Error({json.string(), 0, 0, {}},
+                    "expected the program, device, size and motion that the folder's numbers were "
+                    "measured with, found others; name another folder by --out");
+    std::vector<std::string> tests = options.tests;
+    if (options.motion)
+        tests.insert(tests.end(), options.motion->effort.tests.begin(),
+                     options.motion->effort.tests.end());
+    std::vector<StabilityCell> cells = readStabilityCsv(csv);
+    std::erase_if(cells, [&](const StabilityCell& cell) {
+        return contains(tests, cell.test) &&
+               (contains(options.configurations, cell.configuration) ||
+                cell.configuration == truthName);
+    });
+    return cells;
+}
+
+} // namespace
+
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress) {
     std::vector<TestedTechnique> tested; // all names are checked before the first is run
     for (const std::string& configuration : options.configurations)
         tested.emplace_back(configuration);
-    std::vector<StabilityCell> cells;
     std::vector<std::unique_ptr<FailureTest>> tests;
     const std::vector<const FailureTestRow*> rows = rowsOf(options.tests);
+    std::vector<StabilityCell> cells = keptCells(options);
+    writeFile(options.folder / "stability.json", options.about);
     // In motion takes about as long as all else.
     const double still = options.motion ? (rows.empty() ? 0 : 0.5) : 1,
                  steps = static_cast<double>(rows.size() * (tested.size() + 1)) / still;
@@ -164,7 +195,8 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
             for (StabilityCell& cell : cellsOf(*rows[i], *tests[i], technique, options.folder))
                 cells.push_back(std::move(cell));
         }
-        writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
+        if (!rows.empty())
+            writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
     }
     if (options.motion) {
         const auto inMotion = cellsInMotion(
@@ -180,7 +212,8 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
 
 void writeStabilityPage(const fs::path& folder) {
     const std::vector<StabilityCell> cells = readStabilityCsv(folder / "stability.csv");
-    writeFile(folder / "stability.html", stabilityHtml(testsOf(cells), cells, folder));
+    writeFile(folder / "stability.html",
+              stabilityHtml(testsOf(cells), cells, folder, readFile(folder / "stability.json")));
 }
 
 } // namespace obscura

@@ -12,7 +12,8 @@
 namespace obscura {
 
 // `obscura-bench stability`: techniques through every failure test. The folder gets stability.csv
-// (stability_csv.h), pictures/TEST-CONFIGURATION.png and stability.html (stability_page.h).
+// (stability_csv.h), stability.json, pictures/TEST-CONFIGURATION.png and stability.html
+// (stability_page.h).
 
 // Camera paths through a scene, for steadiness from frame to frame.
 struct Motion {
@@ -25,9 +26,11 @@ struct Motion {
 struct StabilityOptions {
     std::vector<std::string> configurations; // tested_technique.h
     std::filesystem::path folder;
-    ImageSize size{320, 180}; // of the tests' images; some derive theirs from it
+    ImageSize size{320, 180};       // of the tests' images; some derive theirs from it
     std::vector<std::string> tests; // of still pictures, by id; those in motion have their own list
     std::optional<Motion> motion = {};
+    std::string about =
+        "{}\n"; // stability.json: what else decides the numbers, such as the program
 };
 
 // All tests of still pictures, in the order of the page's columns; those in motion (temporal.h)
@@ -40,9 +43,10 @@ std::vector<std::string> screenTechniques();
 // The share done, 0 ... 1, and what is at hand.
 using StabilityProgress = std::function<void(double, const std::string&)>;
 
-// Runs the tests. The CSV is written again after each technique, so that finished ones are kept,
-// and the page at the end. A context must be current; an unknown test is an Error. Returns all that
-// stands in the CSV.
+// Runs the tests. What stands in the folder's CSV of other tests and configurations stays, if it
+// was measured with the same `about`; with another it is an Error. The CSV is written again after
+// each technique, so that finished ones are kept, and the page at the end. A context must be
+// current; an unknown test is an Error. Returns all that stands in the CSV.
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress);
 

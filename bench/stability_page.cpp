@@ -2,7 +2,6 @@
 
 #include "bench/stability_csv.h"
 #include "protocols/files.h"
-#include "protocols/version.h"
 #include "report/html.h"
 
 #include <fmt/format.h>
@@ -298,12 +297,12 @@ constexpr std::string_view introduction =
 } // namespace
 
 std::string stabilityHtml(std::span<const StabilityTest> tests,
-                          const std::vector<StabilityCell>& cells, const fs::path& folder) {
+                          const std::vector<StabilityCell>& cells, const fs::path& folder,
+                          const std::string& about) {
     const PageWriter writer(tests, cells, folder);
     return std::string(head) + std::string(introduction) + key() + writer.heatMap() +
            writer.animation() + writer.sections() +
-           fmt::format("<p class=\"aside\">Measured by obscura-bench {} ({}).</p>\n", version(),
-                       commit()) +
+           fmt::format("<h2>Measured with</h2>\n<pre class=\"aside\">{}</pre>\n", escaped(about)) +
            std::string(tail);
 }
 

@@ -1,6 +1,7 @@
 // Failure tests on techniques whose results are known in advance.
 #include "bench/failure_test.h"
 #include "bench/stability.h"
+#include "protocols/error.h"
 #include "tests/renderer/occlusion_fixture.h"
 
 #include <set>
@@ -87,6 +88,26 @@ TEST_F(FailureTests, CoarseDepthDarkensPlanesFromAfar) {
     const auto far = measured("far", "hbao_plus");
     EXPECT_NEAR(far.at("plane, 32-bit at 1000 R"), far.at("plane, 32-bit at 5 R"), 0.01);
     EXPECT_GT(far.at("plane, 16-bit float at 1000 R"), 0.1);
+}
+
+TEST_F(FailureTests, AFolderKeepsOtherTestsAndIsOfOneProgram) {
+    StabilityOptions options;
+    options.configurations = {"none"};
+    options.folder = std::filesystem::path(testing::TempDir()) / "kept";
+    options.size = size;
+    std::filesystem::remove_all(options.folder);
+    const auto run = [&](const char* test) {
+        options.tests = {test};
+        return runStability(options, [](double, const std::string&) {});
+    };
+    const std::size_t first = run("plane").size();
+    const auto both = run("edge");
+    EXPECT_GT(both.size(), first);
+    EXPECT_EQ(both.front().test, "plane");
+    EXPECT_EQ(run("edge").size(), both.size()); // in the place of what was
+    EXPECT_THROW(run("dance"), Error);
+    options.about = "{\"program\": \"another\"}";
+    EXPECT_THROW(run("plane"), Error);
 }
 
 TEST_F(FailureTests, TestsAreTold) {

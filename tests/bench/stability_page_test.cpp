@@ -78,7 +78,7 @@ TEST_F(StabilityFiles, BrokenCsvNamesTheLine) {
 }
 
 TEST_F(StabilityFiles, PageHasNumbersPicturesAndNothingFromElsewhere) {
-    const std::string page = stabilityHtml(tests, sample(), folder);
+    const std::string page = stabilityHtml(tests, sample(), folder, "{\"program\": \"obscura\"}");
     EXPECT_THAT(page, HasSubstr("default-src 'none'; img-src data:"));
     EXPECT_THAT(page, HasSubstr(">−0.123</a>"));
     EXPECT_THAT(page, HasSubstr(">0.010</a>"));
@@ -92,6 +92,7 @@ TEST_F(StabilityFiles, PageHasNumbersPicturesAndNothingFromElsewhere) {
     EXPECT_THAT(page, HasSubstr("<td>the most</td><td>0.500</td>"));
     EXPECT_THAT(page, HasSubstr("Halo behind a &lt;pole&gt;"));
     EXPECT_THAT(page, HasSubstr("<td class=\"count\">1</td>")); // hbao fails one of two
+    EXPECT_THAT(page, HasSubstr("{&quot;program&quot;: &quot;obscura&quot;}"));
     EXPECT_THAT(page, Not(HasSubstr("http://")));
     EXPECT_THAT(page, Not(HasSubstr("src=\"pictures")));
     EXPECT_THAT(page, Not(HasSubstr("<th scope=\"row\">truth</th>")));
@@ -100,7 +101,7 @@ TEST_F(StabilityFiles, PageHasNumbersPicturesAndNothingFromElsewhere) {
 TEST_F(StabilityFiles, MissingPictureIsNamed) {
     fs::remove(folder / "pictures/halo.png");
     try {
-        stabilityHtml(tests, sample(), folder);
+        stabilityHtml(tests, sample(), folder, "{\"program\": \"obscura\"}");
         FAIL();
     } catch (const Error& error) {
         EXPECT_THAT(error.what(), HasSubstr("pictures/halo.png"));
