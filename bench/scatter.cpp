@@ -26,13 +26,14 @@ struct Frame {
     }
 };
 
-std::string ticks(const Frame& frame) {
+// Labels begin `room` to the right of the left edge.
+std::string ticks(const Frame& frame, double room) {
     std::string svg = "<g class=\"axis\">";
     for (const Tick& tick : frame.across.ticks) {
         const double x = frame.x(tick.value);
         svg += format("<path class=\"{}\" d=\"M{:.1f} {}V{}\"/>", tick.label.empty() ? "minor" : "",
                       x, frame.top, frame.bottom);
-        if (!tick.label.empty())
+        if (!tick.label.empty() && x >= frame.left + room)
             svg += format("<text x=\"{:.1f}\" y=\"{}\" class=\"x\">{}</text>", x, frame.bottom + 18,
                           tick.label);
     }
@@ -48,12 +49,12 @@ std::string ticks(const Frame& frame) {
 }
 
 // What took no time has no logarithm.
-std::string zero(const Frame& frame, const std::vector<ParetoPoint>& points) {
+std::string timeTicks(const Frame& frame, const std::vector<ParetoPoint>& points) {
     const bool any = std::any_of(points.begin(), points.end(),
                                  [](const ParetoPoint& point) { return point.milliseconds <= 0; });
-    return any ? format("<text x=\"{}\" y=\"{}\" class=\"x\">0</text>", frame.left,
-                        frame.bottom + 18)
-               : "";
+    return any ? ticks(frame, 14) + format("<text x=\"{}\" y=\"{}\" class=\"x\">0</text>",
+                                           frame.left, frame.bottom + 18)
+               : ticks(frame, 0);
 }
 
 std::string titles(const Frame& frame, const std::string& across, const std::string& up) {
@@ -199,7 +200,7 @@ std::string scatterSvg(const SweepGroup& group, const ErrorMeasure& measure,
         group, techniques, std::move(points), std::move(front),
         Frame{760, 470, 62, 748, 10, 418, logarithmicAxis(milliseconds), linearAxis(errors)}};
     return opening(chart.frame, format("Milliseconds against {}", measure.name)) +
-           staircase(chart) + ticks(chart.frame) + zero(chart.frame, chart.points) +
+           staircase(chart) + timeTicks(chart.frame, chart.points) +
            titles(chart.frame, "milliseconds, median of frames (logarithmic)",
                   format("{}, {} reference", measure.name, measure.reference)) +
            threads(chart) + bars(chart) + numbers(chart) + marks(chart, measure, firstId) +
@@ -214,7 +215,7 @@ std::string growthSvg(const std::vector<GrowthLine>& lines, const std::string& a
             milliseconds.push_back(time);
         }
     const Frame frame{340, 320, 52, 334, 8, 272, valueAxis(values), logarithmicAxis(milliseconds)};
-    std::string svg = opening(frame, "Milliseconds against " + axisTitle) + ticks(frame) +
+    std::string svg = opening(frame, "Milliseconds against " + axisTitle) + ticks(frame, 0) +
                       titles(frame, axisTitle, "milliseconds");
     for (const GrowthLine& line : lines) {
         std::string path, shapes;

@@ -112,6 +112,13 @@ std::vector<std::string> firstViews(const std::vector<const SweepRow*>& rows) {
     return views;
 }
 
+std::size_t placeInTable(const std::string& id) {
+    const auto table = techniques();
+    return static_cast<std::size_t>(
+        std::find_if(table.begin(), table.end(), [&](const Technique& t) { return t.id == id; }) -
+        table.begin());
+}
+
 void add(const SweepRow& row, FrameRates& rates) {
     const auto view = std::find(rates.views.begin(), rates.views.end(), row.view);
     if (view == rates.views.end())
@@ -181,6 +188,9 @@ std::vector<FrameRates> frameRates(const std::vector<SweepRow>& rows) {
         FrameRates rates{titleOf(group), firstViews(members), {}};
         for (const SweepRow* row : members)
             add(*row, rates);
+        std::stable_sort(rates.lines.begin(), rates.lines.end(), [](const auto& a, const auto& b) {
+            return placeInTable(a.technique) < placeInTable(b.technique);
+        });
         if (!rates.lines.empty())
             all.push_back(rates);
     }
@@ -188,18 +198,16 @@ std::vector<FrameRates> frameRates(const std::vector<SweepRow>& rows) {
 }
 
 bool hasDefaultSettings(const SweepRow& row) {
-    const auto table = techniques();
-    const auto technique = std::find_if(table.begin(), table.end(),
-                                        [&](const Technique& t) { return t.id == row.technique; });
-    if (technique == table.end())
+    const std::size_t place = placeInTable(row.technique);
+    if (place == techniques().size())
         return false;
+    const std::span<const Parameter> parameters = techniques()[place].parameters;
     const Named settings = settingsIn(row.settings);
-    return std::all_of(technique->parameters.begin(), technique->parameters.end(),
-                       [&](const Parameter& parameter) {
-                           const auto set = settings.find(std::string(parameter.name));
-                           return parameter.name == "radius" || set == settings.end() ||
-                                  std::strtof(set->second.c_str(), nullptr) == parameter.value;
-                       });
+    return std::all_of(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
+        const auto set = settings.find(std::string(parameter.name));
+        return parameter.name == "radius" || set == settings.end() ||
+               std::strtof(set->second.c_str(), nullptr) == parameter.value;
+    });
 }
 
 } // namespace obscura

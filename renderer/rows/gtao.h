@@ -50,7 +50,7 @@ constexpr Parameter adaptiveRange{
     0.15f,
     0.01f,
     1,
-    "ours: on Sponza from 0.06 to 0.2 equally good, above worse"};
+    "ours: on Sponza from 0.06 to 0.2 equally good"};
 
 constexpr Parameter gtaoParameters[] = {
     radius,
