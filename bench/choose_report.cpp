@@ -92,13 +92,16 @@ std::string table(const Choice& choice) {
 }
 
 // What is free has no logarithm: it stands at the chart's left edge.
-std::string points(const Choice& choice, Rung rung, double least) {
+std::string line(const Candidate& candidate, double least) {
+    return fmt::format("{} {} {} \"{}\"\n", std::max(candidate.milliseconds, least),
+                       candidate.glance, candidate.rmse, nameOf(candidate));
+}
+
+std::string lines(const Choice& choice, double least, Rung from) {
     std::string text;
     for (const Candidate& candidate : choice.candidates)
-        if (candidate.rung == rung)
-            text += fmt::format("{} {} {}\n", std::max(candidate.milliseconds, least),
-                                rung == Rung::glance ? candidate.glance : candidate.rmse,
-                                '"' + nameOf(candidate) + '"');
+        if (candidate.rung >= from)
+            text += line(candidate, least);
     return text;
 }
 
@@ -141,7 +144,8 @@ Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& cho
     least /= 2;
     Figure figure{"choice", "Time against error of the candidates, and the choice", "", 8, 5.5};
     figure.script = fmt::format(
-        "set logscale x\nset xlabel {}\nset ylabel {}\nset key outside below\nset grid lc rgb "
+        "set logscale x\nset xlabel {}\nset ylabel {}\nset key outside below\nset bmargin 7\nset "
+        "grid lc rgb "
         "'#dddddd'\nset yrange [0:*]\nset xrange [{}:*]\n",
         gnuplotText(fmt::format("milliseconds at {} x {} (logarithmic; free ones at the left edge)",
                                 study.sizes.front().width, study.sizes.front().height)),
@@ -151,16 +155,18 @@ Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& cho
                                      "nohead dashtype 2 lc rgb '#D55E00'\nset label {1} at graph "
                                      "0.99, first {0} right offset 0, 0.6 tc rgb '#D55E00'\n",
                                      *budget.rmse, gnuplotText("budget"));
-    const std::string chosen = points(choice, Rung::chosen, least);
+    const std::string measured = lines(choice, least, Rung::held_out);
+    const std::string chosen = lines(choice, least, Rung::chosen);
     const Series series[] = {
         {"using 1:2 with steps lc rgb '#888888'", "Pareto front at a glance",
          glanceFront(choice, least)},
-        {"using 1:2 with points pt 6 ps 0.8 lc rgb '#888888'", "seen at a glance (small, one view)",
-         points(choice, Rung::glance, least)},
-        {"using 1:2 with points pt 7 ps 1 lc rgb '#0072B2'", "measured on held-out views",
-         points(choice, Rung::held_out, least)},
-        {"using 1:2 with points pt 7 ps 1.8 lc rgb '#009E73'", "chosen", chosen},
-        {"using 1:2:3 with labels offset 0, 1", "", chosen}};
+        {"using 1:2:(0):($3-$2) with vectors nohead lc rgb '#9CC7E0'", "", measured},
+        {"using 1:2 with points pt 6 ps 0.8 lc rgb '#888888'", "at a glance: small, one view",
+         lines(choice, least, Rung::glance)},
+        {"using 1:3 with points pt 7 ps 1 lc rgb '#0072B2'", "the same, measured on held-out views",
+         measured},
+        {"using 1:3 with points pt 7 ps 1.8 lc rgb '#009E73'", "chosen", chosen},
+        {"using 1:3:4 with labels left offset 1.2, 0", "", chosen}};
     figure.script += plotOf(series);
     return figure;
 }
