@@ -65,8 +65,8 @@ void switchOnFor(Settings& settings, std::string_view name) {
     }
 }
 
-// llvmpipe once spent minutes on one triangle of this view, which it shows edge-on within SAO's guard
-// band (material.glsl); ctest's limit is what fails then.
+// llvmpipe once spent minutes on one triangle of this view, which it shows edge-on within SAO's
+// guard band (material.glsl); ctest's limit is what fails then.
 TEST_F(GlTest, ATriangleSeenEdgeOnStallsNothing) {
     Camera camera;
     camera.position = {7.6, 1.2, -0.9};
