@@ -41,8 +41,9 @@ Budget budgetOf(std::span<const std::string> limits) {
         all.emplace_back(limit.name, limit.most);
     all.emplace_back("ms", &Budget::milliseconds);
     std::vector<std::string> names;
+    names.reserve(all.size());
     for (const auto& [name, member] : all)
-        names.push_back(name);
+        names.emplace_back(name);
     for (const std::string& limit : limits) {
         const std::size_t equals = std::min(limit.find('='), limit.size());
         const std::string name = limit.substr(0, equals);

@@ -132,6 +132,7 @@ std::vector<Milliseconds> Choosing::milliseconds(std::size_t view,
             tell("timing");
         });
     std::vector<Milliseconds> result;
+    result.reserve(times.size());
     for (const TechniqueTime& time : times)
         result.push_back(time.total);
     return result;

@@ -57,6 +57,7 @@ class Measuring {
                  const std::string& axis,
                  const std::function<double(const TechniqueSetting&)>& value) {
         std::vector<Settings> settings;
+        settings.reserve(techniques.size());
         for (const TechniqueSetting& each : techniques)
             settings.push_back(settingsOf(each, radius));
         const auto times = timeTechniques(probe, settings, radius, timing_);

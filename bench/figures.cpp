@@ -106,6 +106,7 @@ std::string frontNumbers(const std::vector<ParetoPoint>& points,
                          const Axis& up) {
     constexpr double width = 493, height = 461; // of the plot, in twelfths of a number's height
     std::vector<Spot> spots;
+    spots.reserve(front.size());
     for (const std::size_t i : front)
         spots.push_back(
             {width * across.at(points[i].milliseconds), height * (1 - up.at(points[i].error))});

@@ -161,8 +161,7 @@ class Measurement {
 
     std::string writePicture(std::size_t configuration, const TemporalTest& test,
                              std::span<const Image> images) const {
-        const std::string name =
-            pictureName(test.test.id, study_.configurations[configuration].name);
+        std::string name = pictureName(test.test.id, study_.configurations[configuration].name);
         writePng(study_.folder / name, strip(images));
         return name;
     }

@@ -67,7 +67,7 @@ ImageType read(OIIO::ImageInput* input, const std::string& name, int channels) {
 
 // Several images, all as `spec` says, become the frames of one file.
 bool writeAll(OIIO::ImageOutput& output, const std::string& name, const OIIO::ImageSpec& spec,
-              OIIO::TypeDesc type, std::span<const void* const> images) {
+              const OIIO::TypeDesc& type, std::span<const void* const> images) {
     const std::vector<OIIO::ImageSpec> specs(images.size(), spec);
     if (images.size() == 1 ? !output.open(name, spec)
                            : !output.open(name, static_cast<int>(specs.size()), specs.data()))
@@ -81,8 +81,8 @@ bool writeAll(OIIO::ImageOutput& output, const std::string& name, const OIIO::Im
 
 // Encoded in memory, for OpenImageIO's PNG writer overlooks a disk that is full; writeFile() does
 // not.
-void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-           std::span<const void* const> images) {
+void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+           const OIIO::TypeDesc& type, std::span<const void* const> images) {
     std::vector<unsigned char> encoded;
     OIIO::Filesystem::IOVecOutput memory(encoded);
     const auto output = OIIO::ImageOutput::create(path.string(), &memory);
@@ -129,6 +129,7 @@ Image8 quantised(const Image& image) {
     Image8 result{image.width, image.height, image.channels, {}};
     for (const float value : image.pixels)
         result.pixels.push_back(
+            // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative
             static_cast<std::uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f));
     return result;
 }
