@@ -59,7 +59,7 @@ std::string aboutOf(const Options& options, const gl::Driver& driver) {
     about["glVersion"] = driver.version;
     about["size"] =
         fmt::format("{} x {}", options.stability.size.width, options.stability.size.height);
-    const TemporalEffort& effort = options.effort();
+    const TemporalEffort effort = options.effort();
     about["motion"] = {{"scene", options.scene},
                        {"camera", options.camera},
                        {"fov", options.fovDegrees},

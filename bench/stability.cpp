@@ -26,17 +26,20 @@ std::vector<const FailureTestRow*> allRows() {
     return rows;
 }
 
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
 // In the order of the page's columns.
 std::vector<const FailureTestRow*> rowsOf(const std::vector<std::string>& wanted) {
     const std::vector<std::string> known = stillTestIds();
     for (const std::string& id : wanted)
-        if (std::find(known.begin(), known.end(), id) == known.end())
+        if (!contains(known, id))
             throw Error(fmt::format("expected the name of a failure test, one of {}, found \"{}\"",
                                     fmt::join(known, ", "), id));
     std::vector<const FailureTestRow*> rows = allRows();
-    std::erase_if(rows, [&](const FailureTestRow* row) {
-        return std::find(wanted.begin(), wanted.end(), row->about.id) == wanted.end();
-    });
+    std::erase_if(rows,
+                  [&](const FailureTestRow* row) { return !contains(wanted, row->about.id); });
     return rows;
 }
 
@@ -136,14 +139,6 @@ std::vector<StabilityCell> cellsInMotion(const Motion& motion,
     return measureTemporal(
         {motion.scene, motion.start, motion.radius, configurations, motion.effort, folder},
         progress);
-}
-
-} // namespace
-
-namespace {
-
-bool contains(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 // What the folder has of other tests and configurations, measured alike.

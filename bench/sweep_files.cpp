@@ -226,7 +226,7 @@ void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first
         if (name != "clocks" && name != "date")
             throw Error({(folder / "sweep.json").string(), 0, 0, name},
                         fmt::format("expected \"{}\", as {}, found \"{}\"; rows can stand "
-                                    "together only if this is the same",
+                                    "in one folder only if this is the same; --out names another",
                                     value, first, other));
         if (value.find(other) == value.npos)
             value += (value.empty() ? "" : ", ") + other;

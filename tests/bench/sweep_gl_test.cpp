@@ -165,6 +165,14 @@ TEST(Timing, NamesPassesAndTheirWork) {
     EXPECT_GE(time.frames, 3);
     EXPECT_GT(sum, 0); // medians need not add up on a machine that does other things
     EXPECT_LE(time.total.low, time.total.median);
+
+    // What takes no time does not keep the others' rounds going.
+    plan.frames = 8;
+    plan.seconds = 1000;
+    const auto longer =
+        timeTechniques(probe, std::vector{half, Settings(technique("none"))}, 0.2, plan);
+    EXPECT_EQ(longer[0].frames, 8);
+    EXPECT_EQ(longer[1].frames, 3);
 }
 
 TEST(Viewpoints, SeeTheSceneFromDifferentSides) {
