@@ -20,8 +20,6 @@ struct Budget {
     std::optional<double> flicker;      // 99th percentile of reference-relative change, worst path
     std::optional<double> milliseconds; // in 95 of 100 frames, on the dearest view
     std::vector<std::string> failures;  // ids of failure tests (stability.h) that must pass
-
-    bool limitsErrors() const { return rmse || flip || litFlip; }
 };
 
 // "rmse=0.1" and the like, as the command line has them; an Error lists the names.

@@ -1,6 +1,7 @@
 #include "bench/choose.h"
 
 #include "bench/steadiness.h"
+#include "bench/sweep_summary.h"
 #include "bench/timing.h"
 #include "stimuli/match.h"
 #include "stimuli/match_files.h"
@@ -87,8 +88,8 @@ class Choosing {
     Choice run();
 
   private:
-    void timeAll();
     void glance();
+    void timeAll();
     void measure(Candidate& candidate);
     std::vector<std::size_t> finalists(std::size_t& next);
     void timeAtLength(std::span<const std::size_t> finalists);
@@ -138,25 +139,6 @@ std::vector<Milliseconds> Choosing::milliseconds(std::size_t view,
     return result;
 }
 
-void Choosing::timeAll() {
-    const double radius = study_.match.test.front().radius;
-    std::vector<Settings> settings;
-    for (const TechniqueSetting& technique : study_.match.techniques) {
-        Candidate candidate;
-        candidate.configuration.setting = technique;
-        candidate.glance = candidate.rmse = std::numeric_limits<double>::quiet_NaN();
-        choice_.candidates.push_back(std::move(candidate));
-        settings.push_back(settingsAt(choice_.candidates.back().configuration, radius, false));
-    }
-    const auto times =
-        milliseconds(0, settings, glanceFrames, std::numeric_limits<double>::infinity(), false);
-    for (std::size_t i = 0; i < times.size(); ++i)
-        choice_.candidates[i].milliseconds = times[i].median;
-    std::stable_sort(
-        choice_.candidates.begin(), choice_.candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.milliseconds < b.milliseconds; });
-}
-
 std::map<std::string, MatchedTechnique> Choosing::fits(const MatchStudy& study,
                                                        const std::string& folder) {
     const double before = done_;
@@ -182,19 +164,38 @@ void Choosing::glance() {
     study.rays = std::min(study.rays, glanceRays);
     study.scores.clear();
     const auto fitted = fits(study, "glance");
-    for (Candidate& candidate : choice_.candidates) {
-        const auto summary = summaryOf(fitted.at(candidate.configuration.setting.name).rows,
-                                       nameOf(study.truth), "matched");
-        candidate.rung = Rung::glance;
-        candidate.glance = summary.rmse;
+    for (const TechniqueSetting& technique : study_.match.techniques) {
+        const MatchedTechnique& matched = fitted.at(technique.name);
+        Candidate candidate;
+        candidate.configuration = {technique, matched.fitted};
+        candidate.glance = summaryOf(matched.rows, nameOf(study.truth), "matched").rmse;
+        candidate.rmse = std::numeric_limits<double>::quiet_NaN();
         if (budget_.rmse && candidate.glance > *budget_.rmse * glanceFactor + glanceMargin)
             candidate.verdict = fmt::format("RMSE {:.3f} at a glance, budget {:.3f}",
                                             candidate.glance, *budget_.rmse);
-        else if (budget_.milliseconds &&
-                 candidate.milliseconds > *budget_.milliseconds * glanceFactor)
+        choice_.candidates.push_back(std::move(candidate));
+    }
+}
+
+// As matched at a glance, for a radius changes the cost.
+void Choosing::timeAll() {
+    const double radius = study_.match.test.front().radius;
+    std::vector<Settings> settings;
+    for (const Candidate& candidate : choice_.candidates)
+        settings.push_back(settingsAt(candidate.configuration, radius, true));
+    const auto times =
+        milliseconds(0, settings, glanceFrames, std::numeric_limits<double>::infinity(), false);
+    for (std::size_t i = 0; i < times.size(); ++i) {
+        Candidate& candidate = choice_.candidates[i];
+        candidate.milliseconds = times[i].median;
+        if (candidate.verdict.empty() && budget_.milliseconds &&
+            candidate.milliseconds > *budget_.milliseconds * glanceFactor)
             candidate.verdict = fmt::format("{:.3g} ms at a glance, budget {:.3g}",
                                             candidate.milliseconds, *budget_.milliseconds);
     }
+    std::stable_sort(
+        choice_.candidates.begin(), choice_.candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.milliseconds < b.milliseconds; });
 }
 
 // Fitted on all training views, measured on all others at full size.
@@ -207,7 +208,7 @@ void Choosing::measure(Candidate& candidate) {
     });
     candidate.configuration.fitted = fits(study, "match").begin()->second.fitted;
     candidate.rung = Rung::held_out;
-    double squares = 0;
+    candidate.rmse = 0;
     for (std::size_t i = 0; i < stages_.count(); ++i) {
         MeasuredView& seen = stages_.view(i);
         const Image image =
@@ -215,10 +216,9 @@ void Choosing::measure(Candidate& candidate) {
         const ViewErrors errors = seen.errorsOf(image);
         candidate.views.push_back({errors.full.rmse, errors.full.flip, errors.lit.flip, 0,
                                    0}); // the rest is not known yet
-        squares += errors.full.rmse * errors.full.rmse;
+        candidate.rmse += errors.full.rmse / static_cast<double>(stages_.count());
         tell("measuring " + candidate.configuration.setting.name);
     }
-    candidate.rmse = std::sqrt(squares / static_cast<double>(stages_.count()));
 }
 
 // From the candidate `next` on: the first that meets the limits on errors, and those of nearly its
@@ -304,8 +304,8 @@ void Choosing::testSteadiness(std::span<const std::size_t> finalists) {
 
 Choice Choosing::run() {
     const auto start = std::chrono::steady_clock::now();
-    timeAll();
     glance();
+    timeAll();
     for (std::size_t next = 0; next < choice_.candidates.size() && !choice_.chosen;) {
         const std::vector<std::size_t> final = finalists(next);
         if (final.empty())
@@ -332,6 +332,12 @@ Choice choose(const SweepStudy& study, const Budget& budget, const Folders& fold
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress) {
     if (budget.litFlip && !study.light)
         throw Error("expected a study with [light] for a limit on litFlip, found one without");
+    if ((budget.rmse || budget.flip || budget.litFlip || budget.flicker) &&
+        study.match.test.size() < 2)
+        throw Error(
+            fmt::format("expected at least two test views, for a limit on errors or flicker "
+                        "is met with confidence over views, found {}",
+                        study.match.test.size()));
     requireMeasurable(study,
                       static_cast<double>(study.match.test.size()) *
                           truthCost(study.sizes.front(), study.match.rays),
@@ -346,7 +352,7 @@ std::string chosenFrom(const Sweep& sweep, const Budget& budget) {
     };
     std::map<std::string, Measured> all;
     std::size_t most = 0;
-    for (const SweepRow& row : sweep.rows) {
+    for (const SweepRow& row : atTypicalSpeed(sweep.rows)) {
         Measured& measured = all[row.configuration];
         measured.milliseconds += row.total.median;
         measured.views.push_back(

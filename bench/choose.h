@@ -12,31 +12,32 @@ namespace obscura {
 
 // How far a candidate came. Each rung costs more and leaves fewer.
 enum class Rung {
-    time,     // a few frames of each on one view: they are tried in order of cost
-    glance,   // fitted and tested on one small view each: those far over the budget fall out
+    glance, // fitted and tested on one small view each, timed a little as matched there: those far
+            // over the budget fall out, the others are tried in order of cost
     held_out, // fitted on all training views, measured at full size on held-out ones
     chosen    // and timed at length, on all of them
 };
 
 struct Candidate {
     Configuration configuration;
-    Rung rung = Rung::time;
-    double milliseconds = 0;       // median; on the first view, of finalists the mean of all
-    double glance = 0, rmse = 0;   // of matched visibility: at a glance, on held-out views; NaN
-                                   // before those rungs
+    Rung rung = Rung::glance;
+    double milliseconds = 0;       // median, as matched; on the first view by the glance's fit, of
+                                   // finalists the mean of all views
+    double glance = 0, rmse = 0;   // of matched visibility: at a glance; mean of held-out views,
+                                   // NaN before that rung
     std::vector<ViewResult> views; // from `held_out` on
     std::string verdict;           // why it fell out; "" for the chosen one and those not needed
 };
 
 struct Choice {
-    std::vector<Candidate> candidates; // by rising cost
+    std::vector<Candidate> candidates; // by rising cost at a glance; finalists by their own
     std::optional<std::size_t> chosen; // none: no candidate meets the budget
     double seconds = 0;                // that the search took, references left out
 };
 
-// By a race in rungs: time all a little, look at all a little, then measure in order of cost until
-// one meets every limit on errors with 95 % confidence on views that it was not fitted on (so the
-// study must have at least two test views of each radius). It and those of nearly its cost are the
+// By a race in rungs: look at all a little, time all a little, then measure in order of cost until
+// one meets every limit on errors with 95 % confidence on views that it was not fitted on (a study
+// with fewer than two test views bounds nothing: an Error). It and those of nearly its cost are the
 // finalists: timed at length, in turn, on all views, and the cheapest that meets every limit wins
 // (the fact sheet's rule, §F.8).
 Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,

@@ -19,8 +19,6 @@ namespace {
 
 const char* nameOf(Rung rung) {
     switch (rung) {
-    case Rung::time:
-        return "timed";
     case Rung::glance:
         return "looked at";
     case Rung::held_out:

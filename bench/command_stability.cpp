@@ -1,11 +1,10 @@
 #include "bench/commands.h"
+#include "bench/measured_view.h"
 #include "bench/stability.h"
 #include "bench/temporal_tests.h"
 #include "protocols/progress.h"
 #include "protocols/version.h"
-#include "renderer/builtin.h"
 #include "renderer/gl/context.h"
-#include "renderer/render.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -60,22 +59,17 @@ std::string aboutOf(const Options& options, const gl::Driver& driver) {
     about["size"] =
         fmt::format("{} x {}", options.stability.size.width, options.stability.size.height);
     const TemporalEffort effort = options.effort();
-    about["motion"] = {{"scene", options.scene},
-                       {"camera", options.camera},
-                       {"fov", options.fovDegrees},
-                       {"radius", options.radius},
-                       {"frames", effort.frames},
-                       {"rays", effort.rays},
-                       {"size", fmt::format("{} x {}", effort.width, effort.height)}};
+    SceneHashes hashes({options.scenes, {}});
+    about["motion"] = {
+        {"scene", options.scene},   {"sceneSha256", hashes.of(viewOfScene(options.scene))},
+        {"camera", options.camera}, {"fov", options.fovDegrees},
+        {"radius", options.radius}, {"frames", effort.frames},
+        {"rays", effort.rays},      {"size", fmt::format("{} x {}", effort.width, effort.height)}};
     return about.dump(2) + "\n";
 }
 
 Motion motionOf(const Options& options) {
-    View view;
-    const auto builtins = builtinSceneNames();
-    const bool builtin =
-        std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
-    (builtin ? view.builtin : view.file) = options.scene;
+    View view = viewOfScene(options.scene);
     const std::vector<double>& c = options.camera;
     view.camera.position = {c[0], c[1], c[2]};
     view.camera.target = {c[3], c[4], c[5]};
@@ -139,10 +133,14 @@ std::vector<Command> stabilityCommands(CLI::App& app) {
     command->add_option("--scenes", options->scenes, "scenes folder; default OBSCURA_SCENES");
     command->add_option("--camera", options->camera, "where paths start: position, target")
         ->expected(6);
-    command->add_option("--fov", options->fovDegrees, "vertical, degrees")->capture_default_str();
-    command->add_option("--radius", options->radius, "of tests in motion, metres")
+    command->add_option("--fov", options->fovDegrees, "vertical, degrees")
+        ->check(CLI::Range(1.0, 170.0))
         ->capture_default_str();
-    command->add_option("--frames", options->frames, "of each path; default 60, quick 12");
+    command->add_option("--radius", options->radius, "of tests in motion, metres")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command->add_option("--frames", options->frames, "of each path; default 60, quick 12")
+        ->check(CLI::Range(3, 100000));
     command->add_flag("--page", options->pageOnly, "only make the page anew from the folder's CSV");
     command->add_option("--device", options->device, "as obscura-render --devices lists it");
     return {{command, [options] { return run(*options); }}};

@@ -10,10 +10,10 @@
 #include "bench/viewpoints.h"
 #include "protocols/files.h"
 #include "protocols/progress.h"
-#include "renderer/builtin.h"
 #include "renderer/reference_cache.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdlib>
 #include <optional>
@@ -148,10 +148,12 @@ struct ChooseOptions {
 };
 
 // What measuring everything would have chosen, by the rows of the study's size.
-std::string answerOf(Sweep sweep, const SweepStudy& study, const Budget& budget) {
-    if (sweep.machine.study != identityOf(study))
-        throw Error("expected --sweep to name a sweep of this study with these options, found one "
-                    "of another study, of an earlier text of it, or with others");
+std::string answerOf(Sweep sweep, const SweepStudy& study, const Folders& folders,
+                     const Budget& budget) {
+    SceneHashes hashes(folders);
+    if (sweep.machine.study != identityOf(study, hashes))
+        throw Error("expected --sweep to name a sweep of this study with these options and scenes, "
+                    "found one of another study, of an earlier text of it, or with others");
     const ImageSize& size = study.sizes.front();
     std::erase_if(sweep.rows, [&](const SweepRow& row) {
         return row.width != size.width || row.height != size.height;
@@ -167,11 +169,7 @@ SweepStudy studyOf(const ChooseOptions& options, const Folders& folders) {
         return study;
     if (options.radius <= 0)
         throw Error("expected --radius METRES with --scene: how far occlusion is to reach there");
-    View view;
-    const auto builtins = builtinSceneNames();
-    const bool builtin =
-        std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
-    (builtin ? view.builtin : view.file) = options.scene;
+    View view = viewOfScene(options.scene);
     view.radius = options.radius;
     const std::vector<View> views = viewpoints(view, folders, options.cameras, study.match.seed);
     study.match.train.clear();
@@ -191,7 +189,7 @@ int runChoose(const ChooseOptions& options) {
     SweepStudy study = studyOf(options, folders);
     adjust(study, options.study, quickChooseViews);
     const std::string bySweep =
-        options.sweep.empty() ? "" : answerOf(readSweep(options.sweep), study, budget);
+        options.sweep.empty() ? "" : answerOf(readSweep(options.sweep), study, folders, budget);
     study.sizes.resize(1);
     const fs::path folder =
         options.study.out.empty() ? fs::path("choose-" + study.match.name) : options.study.out;
@@ -269,7 +267,10 @@ std::vector<Command> sweepCommands(CLI::App& app) {
     return {{sweeping, [options] { return runSweep(options->study); }},
             {merging,
              [options, folders] {
-                 mergeSweeps(*folders, options->study.out);
+                 const Sweep all = mergeSweeps(*folders, options->study.out);
+                 if (const auto missing = missingParts(all.machine); !missing.empty())
+                     fmt::print(stderr, "Warning: of the study, part {} is not among these\n",
+                                fmt::join(missing, ", "));
                  writePage(options->study.out);
                  return 0;
              }},

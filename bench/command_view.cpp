@@ -1,10 +1,10 @@
 #include "bench/commands.h"
+#include "bench/measured_view.h"
 #include "bench/normals.h"
 #include "bench/rays.h"
 #include "bench/tested_technique.h"
 #include "bench/timing.h"
 #include "protocols/progress.h"
-#include "renderer/builtin.h"
 #include "renderer/gl/context.h"
 
 #include <fmt/format.h>
@@ -30,10 +30,7 @@ struct Options {
 };
 
 Scene sceneOf(const Options& options) {
-    const auto builtins = builtinSceneNames();
-    return std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end()
-               ? builtinScene(options.scene)
-               : loadScene(options.scenes / options.scene);
+    return loadSceneOf(viewOfScene(options.scene), {options.scenes, {}});
 }
 
 Camera cameraOf(const Options& options) {

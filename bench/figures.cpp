@@ -38,14 +38,6 @@ set xlabel 'milliseconds (what is free stands at the left edge)'
 set ylabel 'RMSE of visibility, matched'
 )";
 
-// "sponza/Sponza.gltf" as part of a file's name.
-std::string fileName(std::string text) {
-    std::replace_if(
-        text.begin(), text.end(),
-        [](unsigned char c) { return !(std::isalnum(c) && c < 128) && c != '.'; }, '-');
-    return text;
-}
-
 std::string ticks(const char* axis, const Axis& range) {
     std::string list;
     for (const Tick& tick : range.ticks)
@@ -176,7 +168,7 @@ std::optional<Figure> scatter(const SweepGroup& group, const std::vector<std::st
         elements.push_back(technique(index));
     }
     return Figure{
-        format("scatter-{}-{}-{}x{}", number, fileName(group.scene), group.width, group.height),
+        format("scatter-{}-{}-{}x{}", number, plainName(group.scene), group.width, group.height),
         titleOf(group) + ": milliseconds against matched RMSE",
         style + ticks("x", across) + ticks("y", up) + scatterFrame +
             scatterKey(techniques, present, points, front) +
@@ -270,7 +262,7 @@ Figure ablationFigure(const AblationTable& table, std::size_t number) {
                         variants("paper", true, true)) +
                  "unset key\nunset ylabel\n";
     }
-    return {format("ablation-{}-{}", number, fileName(table.scene)),
+    return {format("ablation-{}-{}", number, plainName(table.scene)),
             format("What the extensions of VAO++ save, {}", table.scene),
             style + data +
                 format("set logscale x\nset xrange [1.8:36]\nset xtics (2, 4, 8, 16, 32) nomirror "

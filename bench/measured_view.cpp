@@ -1,9 +1,11 @@
 #include "bench/measured_view.h"
 
 #include "bench/picture_error.h"
+#include "renderer/builtin.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace obscura {
@@ -24,6 +26,14 @@ Settings settingsAt(const Configuration& configuration, double radius, bool matc
 }
 
 std::string sceneOf(const View& view) { return view.file.empty() ? view.builtin : view.file; }
+
+View viewOfScene(const std::string& scene) {
+    View view;
+    const auto builtins = builtinSceneNames();
+    const bool builtin = std::find(builtins.begin(), builtins.end(), scene) != builtins.end();
+    (builtin ? view.builtin : view.file) = scene;
+    return view;
+}
 
 MeasuredView::MeasuredView(const Subject& subject, LazyTracer& tracer, const SweepStudy& study,
                            const View& view, const ImageSize& size, bool withDepth,

@@ -18,7 +18,9 @@ struct Configuration {
 };
 Settings settingsAt(const Configuration& configuration, double radius, bool matched);
 
-std::string sceneOf(const View& view); // file or built-in name
+std::string sceneOf(const View& view);      // file or built-in name
+View viewOfScene(const std::string& scene); // the other way: of the built-in scene of that name, or
+                                            // else of that file; from where, is still to be said
 
 // Called while a truth is made: seconds spent of those that truthCost() names, and which it is.
 using TruthProgress = std::function<void(double seconds, const std::string& note)>;

@@ -43,14 +43,6 @@ std::vector<const FailureTestRow*> rowsOf(const std::vector<std::string>& wanted
     return rows;
 }
 
-// "pictures/halo-hbao-steps-8.png"
-std::string pictureName(std::string_view test, const std::string& configuration) {
-    std::string name = fmt::format("pictures/{}-{}.png", test, configuration);
-    std::replace_if(
-        name.begin(), name.end(), [](char c) { return c == ' ' || c == '='; }, '-');
-    return name;
-}
-
 // Visibility, and what is wrong with it.
 Image8 pictureOf(const Finding& finding, double fullColour) {
     return sideBySide(grey(finding.picture), signedError(finding.picture, finding.expected,
@@ -158,7 +150,8 @@ std::vector<StabilityCell> keptCells(const StabilityOptions& options) {
     std::erase_if(cells, [&](const StabilityCell& cell) {
         return contains(tests, cell.test) &&
                (contains(options.configurations, cell.configuration) ||
-                cell.configuration == truthName);
+                cell.configuration == truthName ||
+                cell.measure == worstFlicker); // its animated picture is written anew
     });
     return cells;
 }

@@ -70,6 +70,10 @@ const StabilityCell* headline(const std::vector<StabilityCell>& cells,
     return found == cells.end() ? nullptr : &*found;
 }
 
+std::string pictureName(std::string_view test, const std::string& configuration) {
+    return fmt::format("pictures/{}-{}.png", test, plainName(configuration));
+}
+
 bool passes(const StabilityTest& test, double value) { return std::abs(value) <= test.pass; }
 
 } // namespace obscura

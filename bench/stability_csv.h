@@ -22,6 +22,9 @@ std::vector<StabilityCell> readStabilityCsv(const std::filesystem::path& path);
 const StabilityCell* headline(const std::vector<StabilityCell>& cells,
                               const std::string& configuration, const StabilityTest& test);
 
+// The file of a result's picture in the result folder: "pictures/halo-hbao-steps-8.png".
+std::string pictureName(std::string_view test, const std::string& configuration);
+
 // Whether a headline is no failure.
 bool passes(const StabilityTest& test, double value);
 

@@ -35,12 +35,10 @@ std::string settingsText(const Settings& settings) {
     return text;
 }
 
-// A file name that every system takes.
-std::string fileName(std::string text) {
-    for (char& c : text)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.')
-            c = '_';
-    return text;
+std::vector<View> viewsOf(const SweepStudy& study) {
+    std::vector<View> views = study.match.train;
+    views.insert(views.end(), study.match.test.begin(), study.match.test.end());
+    return views;
 }
 
 // Seconds that a configuration takes on one view, roughly: shares of the progress line.
@@ -98,7 +96,8 @@ std::string keyOf(const std::string& configuration, const std::string& scene,
 
 // Rows of an earlier run count when nothing that decides them has changed since.
 void Sweeping::open() {
-    sweep_.machine = machineOf(driver_, timing_, identityOf(study_));
+    sweep_.machine = machineOf(driver_, timing_, identityOf(study_, hashes_));
+    sweep_.machine.part = fmt::format("{}/{}", plan_.part, plan_.parts);
     removeUnfinishedFiles(plan_.folder);
     if (!fs::exists(plan_.folder / "sweep.json"))
         return;
@@ -136,6 +135,8 @@ void Sweeping::match() {
     std::erase_if(study.techniques, [&, i = -1](const TechniqueSetting&) mutable {
         return ++i % plan_.parts != plan_.part - 1;
     });
+    study.test.resize(1); // the fit alone is wanted
+    study.scores.clear();
     double matched = 0;
     const MatchResult result =
         obscura::match(study, folders_, plan_.folder / "match", plan_.cache, driver_,
@@ -231,8 +232,8 @@ void Sweeping::addErrors(SweepRow& row, MeasuredView& seen, const Configuration&
         if (!matched)
             continue;
         row.thumbnail = fmt::format("thumbnails/{}.png",
-                                    fileName(fmt::format("{} {} {} {:g}", row.configuration,
-                                                         row.view, row.width, row.radius)));
+                                    plainName(fmt::format("{} {} {} {:g}", row.configuration,
+                                                          row.view, row.width, row.radius)));
         const int width = 320, height = std::max(1, width * row.height / row.width);
         writePng(plan_.folder / row.thumbnail,
                  sideBySide(shrunk(grey(image), width, height),
@@ -275,13 +276,12 @@ void Sweeping::measureScene(const std::string& sceneSha256) {
                 measureGroup(
                     seen, std::span(todo).subspan(first, std::min(groupSize, todo.size() - first)));
         }
-    for (const std::vector<View>* views : {&study_.match.train, &study_.match.test})
-        for (const View& view : *views)
-            if (growthCost() > 0 && view.name == study_.growth->view &&
-                hashes_.of(view) == sceneSha256) {
-                load(view);
-                grow(*subject, view);
-            }
+    for (const View& view : viewsOf(study_))
+        if (growthCost() > 0 && view.name == study_.growth->view &&
+            hashes_.of(view) == sceneSha256) {
+            load(view);
+            grow(*subject, view);
+        }
 }
 
 void Sweeping::write() {
@@ -296,7 +296,7 @@ Sweep Sweeping::run() {
     estimate();
     match();
     std::set<std::string> seen;
-    for (const View& view : study_.match.test)
+    for (const View& view : viewsOf(study_)) // growth may be of a training view
         if (seen.insert(hashes_.of(view)).second)
             measureScene(hashes_.of(view));
     write();
@@ -305,16 +305,15 @@ Sweep Sweeping::run() {
 
 } // namespace
 
-std::string identityOf(const SweepStudy& study) {
+std::string identityOf(const SweepStudy& study, SceneHashes& hashes) {
     std::string text = fmt::format("{}\n{} {:g} {}\n", study.match.sha256, study.frames,
                                    study.seconds, study.match.rays);
     const auto add = [&](const ImageSize& size) {
         text += fmt::format("{}x{} ", size.width, size.height);
     };
     add(study.match.training);
-    for (const std::vector<View>* views : {&study.match.train, &study.match.test})
-        for (const View& view : *views)
-            text += fmt::format("\n{} {:g}", view.name, view.radius);
+    for (const View& view : viewsOf(study))
+        text += fmt::format("\n{} {:g} {}", view.name, view.radius, hashes.of(view));
     std::for_each(study.sizes.begin(), study.sizes.end(), add);
     if (study.growth) {
         std::for_each(study.growth->sizes.begin(), study.growth->sizes.end(), add);
@@ -331,10 +330,11 @@ void requireMeasurable(const SweepStudy& study, double referenceSeconds, double 
     for (std::size_t i = 0; i < study.match.train.size(); ++i)
         referenceSeconds += truthCost(study.match.training, study.match.rays);
     if (referenceSeconds > hours * 3600)
-        throw Error(
-            fmt::format("expected references of at most {:g} h, found views, sizes and rays "
-                        "that take about {:.1f} h; ask for fewer, or allow it by --hours",
-                        hours, referenceSeconds / 3600));
+        throw Error(fmt::format(
+            "expected references of at most {:g} h, found views, sizes and rays "
+            "that take about {:.1f} h, less those in the cache; ask for fewer, or allow it "
+            "by --hours",
+            hours, referenceSeconds / 3600));
 }
 
 Sweep sweep(const SweepStudy& study, const Folders& folders, const SweepPlan& plan,

@@ -20,9 +20,9 @@ struct SweepPlan {
     double hours = 1;             // that references may take; more is an Error that says how long
 };
 
-// What decides a study's rows besides program and machine: its text, and what the command line
-// changed.
-std::string identityOf(const SweepStudy& study);
+// What decides a study's rows besides program and machine: its text, what the command line
+// changed, and its scenes.
+std::string identityOf(const SweepStudy& study, SceneHashes& hashes);
 
 // What neither sweep() nor choose() can do is an Error: a technique that traces rays, and
 // references that take longer than `hours`: `referenceSeconds` of test views, and those of training

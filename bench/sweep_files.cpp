@@ -9,8 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
+#include <set>
+#include <sstream>
 #include <type_traits>
 
 namespace obscura {
@@ -93,6 +96,7 @@ void eachField(Machine& machine, Visit visit) {
     visit("study", machine.study);
     visit("clocks", machine.clocks);
     visit("date", machine.date);
+    visit("part", machine.part);
 }
 
 std::string spelt(const std::string& text) { return csvCell(text); }
@@ -223,12 +227,12 @@ void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first
         const std::string& other = *others.at(name);
         if (keptEqual(name, value) == keptEqual(name, other))
             return;
-        if (name != "clocks" && name != "date")
+        if (name != "clocks" && name != "date" && name != "part")
             throw Error({(folder / "sweep.json").string(), 0, 0, name},
                         fmt::format("expected \"{}\", as {}, found \"{}\"; rows can stand "
                                     "in one folder only if this is the same; --out names another",
                                     value, first, other));
-        if (value.find(other) == value.npos)
+        if (fmt::format(", {}, ", value).find(fmt::format(", {}, ", other)) == value.npos)
             value += (value.empty() ? "" : ", ") + other;
     });
 }
@@ -244,9 +248,28 @@ Sweep readSweep(const fs::path& folder) {
             rowsOf<GrowthRow>(folder / "growth.csv")};
 }
 
+std::vector<std::string> missingParts(const SweepMachine& machine) {
+    std::set<int> found;
+    int parts = 0;
+    std::istringstream list(machine.part);
+    for (std::string part; std::getline(list, part, ',');) {
+        const std::size_t slash = std::min(part.find('/'), part.size() - 1);
+        found.insert(std::atoi(part.c_str()));
+        parts = std::max(parts, std::atoi(part.c_str() + slash + 1));
+    }
+    std::vector<std::string> missing;
+    for (int i = 1; i <= parts; ++i)
+        if (!found.contains(i))
+            missing.push_back(fmt::format("{}/{}", i, parts));
+    return missing;
+}
+
 Sweep mergeSweeps(const std::vector<fs::path>& parts, const fs::path& folder) {
     Sweep all;
     Measured measured;
+    if (fs::exists(folder / "sweep.json"))
+        throw Error({(folder / "sweep.json").string(), 0, 0, {}},
+                    "expected a folder without a sweep, found one; --out names another");
     for (std::size_t i = 0; i < parts.size(); ++i) {
         Sweep part = readSweep(parts[i]);
         if (i == 0)

@@ -19,13 +19,16 @@ void writeSweep(const std::filesystem::path& folder, const Sweep& sweep);
 // An Error names file, line and column.
 Sweep readSweep(const std::filesystem::path& folder);
 
-// Adds to `all` the clocks and dates of another run, whose folder an Error names if anything else
-// differs: studies, programs, methods, machines. `first` says where those of `all` come from.
+// Adds to `all` the clocks, dates and parts of another run, whose folder an Error names if anything
+// else differs: studies, programs, methods, machines. `first` says where those of `all` come from.
 void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first,
                   const std::filesystem::path& folder);
 
-// Writes the parts of one study as one sweep, with their thumbnails, into a folder of its own. An
-// Error says what was measured twice and where, or in what they differ.
+// Parts of the study, like "2/3", that the machine's text does not name.
+std::vector<std::string> missingParts(const SweepMachine& machine);
+
+// Writes the parts of one study as one sweep, with their thumbnails, into a folder that has none.
+// An Error says what was measured twice and where, or in what they differ.
 Sweep mergeSweeps(const std::vector<std::filesystem::path>& parts,
                   const std::filesystem::path& folder);
 

@@ -2,6 +2,7 @@
 
 #include "bench/marks.h"
 #include "bench/scatter.h"
+#include "bench/sweep_files.h"
 #include "bench/sweep_page_style.h"
 #include "bench/sweep_page_tables.h"
 #include "protocols/files.h"
@@ -10,6 +11,7 @@
 #include "report/html.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -192,8 +194,9 @@ std::string ablationSection(const std::vector<SweepGroup>& groups) {
         return {};
     return section(
         "ablation", "What the extensions of VAO++ save",
-        "Milliseconds by samples, each extension alone and both together; in per cent "
-        "of plain VAO; the fastest in bold. Below, matched RMSE. In grey, what the paper printed: "
+        "Milliseconds by samples (lines), each extension alone and both together; in per cent of "
+        "VAO++ without either; the fastest in bold. Below, matched RMSE. First, the technique of "
+        "2010 with as many lines, where it was measured. In grey, what the paper printed: "
         "Bokšanský, Pospíšil and Bittner 2017, Table 1, in Unity on a GTX 970 (per cent from "
         "these milliseconds). "
         "Ratios can be compared across machines, milliseconds cannot.",
@@ -207,7 +210,7 @@ std::string rateSection(const std::vector<SweepRow>& rows) {
     if (tables.empty())
         return {};
     tables = "<div class=\"side\">" + tables + "</div>\n";
-    return section("rates", "Frame rates at default settings",
+    return section("rates", "Frame rates at default settings, as matched",
                    "As the thesis from Leeds reports them (there on an RTX 2070 Super at 1080p, on "
                    "average 234 FPS without occlusion, 230 with HBAO, 228 with StarCraft II's, 224 "
                    "with Alchemy), but FPS = 1000 / (G-buffer + technique) in milliseconds: "
@@ -249,6 +252,9 @@ std::string introduction(const SweepMachine& machine) {
                             machine.method, machine.date));
     html += format("<p class=\"aside hash\">{}; study {}</p>\n", escaped(machine.program),
                    escaped(machine.study));
+    if (const auto missing = missingParts(machine); !missing.empty())
+        html += format("<p class=\"warning\">Not the whole study: part {} is missing.</p>\n",
+                       fmt::join(missing, ", "));
     if (gl::isSoftware(machine.renderer))
         html +=
             "<p class=\"warning\">This renderer is software. What is fast on a processor need not "
@@ -260,11 +266,14 @@ std::string introduction(const SweepMachine& machine) {
            "in both. Point, tap or tab to a mark for all its numbers.</p>\n"
            "<details><summary>What exactly is drawn</summary><p>Milliseconds are those of the "
            "technique's own passes: the median over views of each view's median frame. Thin bars "
-           "go from the 5th to the 95th percentile of frames, also medians over views. What took "
-           "no "
-           "time stands on the left border. RMSE is the "
-           "root of the mean square over views, all other errors are means over views; bias is "
-           "drawn without its sign, which is above 0 where a technique is too dark. Matched errors "
+           "go from the 5th to the 95th percentile of frames, also medians over views. Where a "
+           "machine "
+           "was faster or slower for a while, times are scaled by starcraft's in the same rounds; "
+           "sweep.csv has them as they were. What took no time stands on the left border. RMSE is "
+           "the "
+           "root of the mean square over views, all other errors are means over views; bias is the "
+           "mean of its size, without its sign, which is above 0 where a technique is too dark. "
+           "Matched errors "
            "are what remains after each technique was fitted on training views. The full reference "
            "knows the whole scene, the depth-buffer reference only what a depth buffer of one "
            "layer "

@@ -80,17 +80,23 @@ std::string errorLine(const std::string& name, const PictureError& error) {
 struct AblationPart {
     const AblationTable::Column& column;
     const char *unit, *kind;
+
+    bool hasVao() const { // a column more
+        return *kind == 0 && std::any_of(column.vao.begin(), column.vao.end(),
+                                         [](double value) { return !std::isnan(value); });
+    }
 };
 
 std::string ablationHead(const std::vector<AblationPart>& parts) {
     std::string titles = "<tr><th rowspan=\"2\" scope=\"col\" class=\"number\">samples</th>",
                 variants = "<tr>";
     for (const AblationPart& part : parts) {
-        titles += format("<th colspan=\"4\" scope=\"colgroup\" class=\"group {}\">{}{}</th>",
-                         part.kind, escaped(part.column.title), part.unit);
+        titles += format("<th colspan=\"{}\" scope=\"colgroup\" class=\"group {}\">{}{}</th>",
+                         part.hasVao() ? 5 : 4, part.kind, escaped(part.column.title), part.unit);
+        variants += part.hasVao() ? "<th scope=\"col\" class=\"number group\">VAO 2010</th>" : "";
         for (std::size_t v = 0; v < ablationVariants.size(); ++v)
             variants += format("<th scope=\"col\" class=\"number {}{}\">{}</th>", part.kind,
-                               v ? "" : " group", ablationVariants[v]);
+                               v || part.hasVao() ? "" : " group", ablationVariants[v]);
     }
     return titles + "</tr>" + variants + "</tr>";
 }
@@ -101,15 +107,19 @@ std::string ablationCells(const AblationPart& part, std::size_t samples) {
         return std::isnan(b) ? !std::isnan(a) : a < b;
     });
     std::string html;
+    if (part.hasVao())
+        html += format("<td class=\"number group\">{}<br/><small>both: {} %</small></td>",
+                       readable(part.column.vao[samples]),
+                       readable(100 * line.back() / part.column.vao[samples], 2));
     for (std::size_t v = 0; v < line.size(); ++v) {
         const bool published = *part.kind != 0; // in hundredths
         const std::string text = published ? format("{:.2f}", line[v]) : readable(line[v]);
         const double percent = 100 * line[v] / line[0], rmse = part.column.rmse[samples][v];
-        html +=
-            format("<td class=\"number {}{}\">{}{}{}</td>", part.kind, v ? "" : " group",
-                   line[v] == fastest ? "<b>" + text + "</b>" : text,
-                   v && !std::isnan(percent) ? format(" <small>{:.0f} %</small>", percent) : "",
-                   published || std::isnan(rmse) ? "" : format("<br/><small>{:.4f}</small>", rmse));
+        html += format(
+            "<td class=\"number {}{}\">{}{}{}</td>", part.kind, v || part.hasVao() ? "" : " group",
+            line[v] == fastest ? "<b>" + text + "</b>" : text,
+            v && !std::isnan(percent) ? format(" <small>{:.0f} %</small>", percent) : "",
+            published || std::isnan(rmse) ? "" : format("<br/><small>{:.4f}</small>", rmse));
     }
     return html;
 }
@@ -199,8 +209,10 @@ std::string detailsOf(const SweepRow& point) {
                     errorLine("depth buffer, matched", point.depthMatched) +
                     errorLine("lit image, raw", point.litRaw) +
                     errorLine("lit image, matched", point.litMatched)) +
-           format("<p class=\"aside\">{}: {}. Views: {}; radius {} m.</p>",
-                  escaped(point.technique), escaped(point.settings), escaped(point.view),
+           format("<p class=\"aside\">{}: {}. Matched, and so timed, with {}. Views: {}; radius {} "
+                  "m.</p>",
+                  escaped(point.technique), escaped(point.settings),
+                  point.fitted.empty() ? "the same" : escaped(point.fitted), escaped(point.view),
                   readable(point.radius));
 }
 

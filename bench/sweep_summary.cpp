@@ -41,10 +41,12 @@ double median(Rows rows, const Of& of) {
 
 PictureError errorOf(Rows rows, PictureError SweepRow::*error) {
     const auto squared = [&](const SweepRow& row) { return std::pow((row.*error).rmse, 2); };
-    return {std::sqrt(mean(rows, squared)),
-            mean(rows, [&](const SweepRow& row) { return (row.*error).bias; }),
-            mean(rows, [&](const SweepRow& row) { return (row.*error).ssim; }),
-            mean(rows, [&](const SweepRow& row) { return (row.*error).flip; })};
+    return {
+        std::sqrt(mean(rows, squared)),
+        std::copysign(mean(rows, [&](const SweepRow& row) { return std::abs((row.*error).bias); }),
+                      mean(rows, [&](const SweepRow& row) { return (row.*error).bias; })),
+        mean(rows, [&](const SweepRow& row) { return (row.*error).ssim; }),
+        mean(rows, [&](const SweepRow& row) { return (row.*error).flip; })};
 }
 
 std::set<std::string> viewsOf(Rows rows) {
@@ -109,6 +111,34 @@ SweepRow overViews(Rows rows) {
     return point;
 }
 
+std::vector<SweepRow> atTypicalSpeed(std::vector<SweepRow> rows) {
+    using Key = std::tuple<std::string, std::string, int, int, double>;
+    const auto keyOf = [](const SweepRow& row) {
+        return Key{row.scene, row.view, row.width, row.height, row.radius};
+    };
+    const auto anchorOf = [](const SweepRow& row) { return row.total.median / row.toStarcraft; };
+    const auto hasAnchor = [](const SweepRow& row) {
+        return row.total.median > 0 && row.toStarcraft > 0;
+    };
+    std::map<Key, std::vector<SweepRow>> views;
+    for (const SweepRow& row : rows)
+        if (hasAnchor(row))
+            views[keyOf(row)].push_back(row);
+    std::map<Key, double> typical;
+    for (const auto& [key, members] : views)
+        typical[key] = median(members, anchorOf);
+    for (SweepRow& row : rows) {
+        if (!hasAnchor(row))
+            continue;
+        const double factor = typical.at(keyOf(row)) / anchorOf(row);
+        for (double* time : {&row.total.median, &row.total.low, &row.total.high, &row.gbuffer})
+            *time *= factor;
+        for (double& time : row.work)
+            time *= factor;
+    }
+    return rows;
+}
+
 std::string titleOf(const SweepGroup& group) {
     return fmt::format("{}, {}×{}, R {:g} m", group.scene, group.width, group.height, group.radius);
 }
@@ -116,7 +146,7 @@ std::string titleOf(const SweepGroup& group) {
 std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows) {
     std::vector<std::string> scenes;
     std::map<std::tuple<std::string, int, int, double>, std::vector<SweepRow>> byGroup;
-    for (const SweepRow& row : rows) {
+    for (const SweepRow& row : atTypicalSpeed(rows)) {
         if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end())
             scenes.push_back(row.scene);
         byGroup[{row.scene, row.width, row.height, row.radius}].push_back(row);

@@ -12,12 +12,18 @@ namespace obscura {
 
 // One configuration at one scene, resolution and radius, all views taken together: of times,
 // fetches, bytes and ratios the median over views (so the percentiles are those of the frames of a
-// typical view); of RMSE the root of the mean square, of other errors the mean; NaN as soon as one
-// view has none; frames are summed, `view` lists the names, text and thumbnail are the first
-// view's.
+// typical view); of RMSE the root of the mean square, of bias the mean size with the sign of the
+// mean (views must not cancel out), of other errors the mean; NaN as soon as one view has none;
+// frames are summed, `view` lists the names, text and thumbnail are the first view's.
 SweepRow overViews(std::span<const SweepRow> rows);
 
-// The configurations of one scene, resolution and radius, by rising milliseconds.
+// The rows with their milliseconds as at the view's typical speed. Groups of configurations run one
+// after the other, while machines heat up and others use them: each row's are scaled so that
+// `starcraft` with 16 samples takes in its rounds what it takes in the view's median row. Ratios
+// stay as they are; so does what has none.
+std::vector<SweepRow> atTypicalSpeed(std::vector<SweepRow> rows);
+
+// The configurations of one scene, resolution and radius, by rising milliseconds at typical speed.
 struct SweepGroup {
     std::string scene;
     int width = 0, height = 0;

@@ -43,21 +43,26 @@ bool fits(const Cell& cell, const std::string& settings, const std::string& cull
     return cell.settings == settings && (cell.culling.empty() || cell.culling == culling);
 }
 
+// Where the count stands among ablationSamples; their number when it does not.
+std::size_t placeOfSamples(const std::string& count) {
+    return static_cast<std::size_t>(
+        std::find(ablationSamples.begin(), ablationSamples.end(), std::atoi(count.c_str())) -
+        ablationSamples.begin());
+}
+
 std::vector<Cell> cellsOf(const SweepGroup& group) {
     std::vector<Cell> cells;
     for (const SweepRow& row : group.points) {
         if (row.technique != "vao_plus_plus")
             continue;
         Named settings = settingsIn(row.settings);
-        const int samples = std::atoi(taken(settings, "samples").c_str());
+        const std::size_t samples = placeOfSamples(taken(settings, "samples"));
         const bool adaptive = taken(settings, "adaptive") == "1";
         std::string culling = taken(settings, "culling");
         if (culling == "0")
             culling.clear();
-        const auto at = std::find(ablationSamples.begin(), ablationSamples.end(), samples);
-        if (at != ablationSamples.end())
-            cells.push_back({spelt(settings), culling,
-                             static_cast<std::size_t>(at - ablationSamples.begin()),
+        if (samples < ablationSamples.size())
+            cells.push_back({spelt(settings), culling, samples,
                              (adaptive ? 1u : 0u) + (culling.empty() ? 0u : 2u), row.total.median,
                              row.matched.rmse});
     }
@@ -70,6 +75,7 @@ AblationTable::Column emptyColumn(const SweepGroup& group) {
     for (auto* values : {&column.milliseconds, &column.rmse})
         for (auto& line : *values)
             line.fill(unmeasured);
+    column.vao.fill(unmeasured);
     return column;
 }
 
@@ -99,6 +105,12 @@ void fill(AblationTable& table, const std::string& settings, const std::string& 
         if (fits(cell, settings, culling)) {
             column.milliseconds[cell.samples][cell.variant] = cell.milliseconds;
             column.rmse[cell.samples][cell.variant] = cell.rmse;
+        }
+    for (const SweepRow& row : group.points) // the cheapest first
+        if (row.technique == "vao") {
+            const std::size_t samples = placeOfSamples(settingsIn(row.settings)["samples"]);
+            if (samples < column.vao.size() && std::isnan(column.vao[samples]))
+                column.vao[samples] = row.total.median;
         }
     table.columns.push_back(column);
 }
@@ -179,9 +191,10 @@ const AblationTable& publishedAblation() {
 
 std::vector<FrameRates> frameRates(const std::vector<SweepRow>& rows) {
     std::vector<FrameRates> all;
+    const std::vector<SweepRow> typical = atTypicalSpeed(rows);
     for (const SweepGroup& group : groupsOf(rows)) {
         std::vector<const SweepRow*> members;
-        for (const SweepRow& row : rows)
+        for (const SweepRow& row : typical)
             if (row.scene == group.scene && row.width == group.width &&
                 row.height == group.height && row.radius == group.radius && hasDefaultSettings(row))
                 members.push_back(&row);

@@ -16,6 +16,8 @@ struct AblationTable {
         // By sample count, then plain, adaptive, culling, both.
         std::array<std::array<double, 4>, 5> milliseconds;
         std::array<std::array<double, 4>, 5> rmse; // matched, full reference; none as printed
+        std::array<double, 5> vao{}; // milliseconds of `vao`, its cheapest with as many lines; none
+                                     // as printed
     };
     std::string scene, settings; // the settings that are equal in every cell
     std::vector<Column> columns;

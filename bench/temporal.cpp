@@ -1,5 +1,6 @@
 #include "bench/temporal.h"
 
+#include "bench/stability_csv.h"
 #include "bench/temporal_animation.h"
 #include "bench/temporal_pictures.h"
 #include "protocols/error.h"
@@ -7,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cctype>
 #include <numeric>
 #include <optional>
 
@@ -20,14 +20,6 @@ constexpr std::uint64_t truthSeed = 0, noiseSeed = 1;
 
 bool sameView(const Camera& a, const Camera& b) {
     return a.position == b.position && a.target == b.target;
-}
-
-// A file in the result folder; what may mean something to file systems or pages becomes a dash.
-std::string pictureName(std::string_view test, std::string name) {
-    for (char& c : name)
-        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '.')
-            c = '-';
-    return fmt::format("pictures/{}-{}.png", test, name);
 }
 
 Magnitudes magnitudes(const Image& image, const std::vector<bool>& shown) {

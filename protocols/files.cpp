@@ -7,6 +7,8 @@
 #include <openssl/evp.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -75,6 +77,16 @@ std::string readFile(const fs::path& path) {
     if (std::ferror(file.get()))
         fail(path, "cannot be read to its end");
     return content;
+}
+
+std::string plainName(std::string text) {
+    std::replace_if(
+        text.begin(), text.end(),
+        [](unsigned char c) {
+            return !(c < 128 && (std::isalnum(c) || c == '-' || c == '_' || c == '.'));
+        },
+        '-');
+    return text;
 }
 
 void removeUnfinishedFiles(const fs::path& folder) {

@@ -16,6 +16,10 @@ std::string readFile(const std::filesystem::path& path);
 // one, never half of one. Creates missing parent folders.
 void writeFile(const std::filesystem::path& path, std::string_view content);
 
+// The text as a file name that every system and every page takes: what is no letter, digit, "-",
+// "_" or "." becomes "-".
+std::string plainName(std::string text);
+
 // What killed runs were writing in a folder when they died.
 void removeUnfinishedFiles(const std::filesystem::path& folder);
 

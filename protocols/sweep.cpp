@@ -102,6 +102,9 @@ SweepStudy quick(SweepStudy study, std::size_t testViews) {
     study.frames = 3;
     study.seconds = 0.1;
     if (study.growth) {
+        if (!has(study.match.train, study.growth->view) &&
+            !has(study.match.test, study.growth->view))
+            study.growth->view = study.match.train.front().name;
         study.growth->sizes = {{240, 135}, {480, 270}, {960, 540}};
         study.growth->radii.resize(std::min<std::size_t>(study.growth->radii.size(), 3));
     }

@@ -22,7 +22,7 @@ TEST(Budget, WorstExcessComesFirst) {
     const Budget budget = budgetOf(limits);
     const ViewResult good{0.05, 0.1, 0, 1}, slow{0.05, 0.1, 0, 5}, wrong{0.2, 0.1, 0, 1};
     EXPECT_EQ(excess(budget, std::vector{good, good}), "");
-    EXPECT_EQ(excess(budget, std::vector{good, slow}), "5 ms, budget 2");
+    EXPECT_EQ(excess(budget, std::vector{good, slow}), "5 ms in 95 of 100 frames on the dearest view, budget 2");
     EXPECT_THAT(
         excess(budget, std::vector{wrong, wrong}),
         testing::StartsWith("RMSE 0.200 (at most 0.200 with 95 % confidence), budget 0.100"));

@@ -151,6 +151,20 @@ TEST_F(SweepParts, BecomeOneWithTheirThumbnails) {
     EXPECT_EQ(readFile(folder_ / "all" / all.rows[first_.rows.size()].thumbnail), "two");
 }
 
+TEST_F(SweepParts, SayWhichAreMissing) {
+    first_.machine.part = "1/12";
+    second_.machine.part = "11/12";
+    EXPECT_THAT(missingParts(merge().machine),
+                testing::ElementsAre("2/12", "3/12", "4/12", "5/12", "6/12", "7/12", "8/12", "9/12",
+                                     "10/12", "12/12"));
+    EXPECT_THAT(mergeError(), HasSubstr("all/sweep.json: expected a folder without a sweep"));
+    SweepMachine whole;
+    for (const char* part : {"1/1", "1/2, 2/2", "2/3, 1/3, 3/3"}) {
+        whole.part = part;
+        EXPECT_THAT(missingParts(whole), testing::IsEmpty()) << part;
+    }
+}
+
 TEST_F(SweepParts, MayNotMeasureTheSameTwice) {
     second_.rows[1] = first_.rows[0];
     second_.rows[1].thumbnail = "";

@@ -1,4 +1,5 @@
 #include "bench/choose.h"
+#include "bench/choose_report.h"
 #include "bench/sweep_files.h"
 #include "bench/timing.h"
 #include "bench/viewpoints.h"
@@ -6,6 +7,7 @@
 #include "protocols/files.h"
 #include "renderer/builtin.h"
 #include "renderer/gl/context.h"
+#include "tests/error_of.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -73,6 +75,10 @@ const SweepRow& rowOf(const Sweep& sweep, const std::string& configuration) {
     throw Error("no row of " + configuration);
 }
 
+const std::string& nameOf(const Choice& choice, std::size_t candidate) {
+    return choice.candidates[candidate].configuration.setting.name;
+}
+
 // The least budget of matched RMSE that a configuration meets.
 double leastBudget(const Sweep& sweep, const std::string& configuration) {
     std::vector<double> values;
@@ -110,16 +116,21 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
         EXPECT_EQ(again.rows[i].total.median, odd.rows[i].total.median);
 
     // The race gives the answer that measuring everything gives.
-    Budget loose, strict, impossible;
+    Budget loose, strict, paid, impossible;
     loose.rmse = 1;
     strict.rmse = 1.001 * leastBudget(first, "starcraft samples=64"); // what no other meets
     ASSERT_LT(*strict.rmse, std::min(leastBudget(first, "gtao"), leastBudget(first, "none")));
+    paid.rmse = 1.001 * leastBudget(first, "gtao"); // what both that darken meet
+    ASSERT_LT(*paid.rmse, leastBudget(first, "none"));
     impossible.rmse = 0.1 * gtao.matched.rmse;
     const SweepPlan plan{folder_ / "choice", folder_ / "cache"};
+    const auto choiceOf = [&](const Budget& budget) {
+        return choose(study_, budget, {}, plan, context_.driver(),
+                      [](double, double, const std::string&) {});
+    };
     const auto chosen = [&](const Budget& budget) {
-        const Choice choice = choose(study_, budget, {}, plan, context_.driver(),
-                                     [](double, double, const std::string&) {});
-        return choice.chosen ? choice.candidates[*choice.chosen].configuration.setting.name : "";
+        const Choice choice = choiceOf(budget);
+        return choice.chosen ? nameOf(choice, *choice.chosen) : "";
     };
     EXPECT_EQ(chosen(loose), "none");
     EXPECT_EQ(chosenFrom(first, loose), "none");
@@ -127,6 +138,44 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     EXPECT_EQ(chosenFrom(first, strict), "starcraft samples=64");
     EXPECT_EQ(chosen(impossible), "");
     EXPECT_EQ(chosenFrom(first, impossible), "");
+
+    // Of those that meet a budget, the cheapest; all that is cheaper failed, and says why.
+    const Choice choice = choiceOf(paid);
+    ASSERT_TRUE(choice.chosen);
+    EXPECT_NE(nameOf(choice, *choice.chosen), "none");
+    const double cost = choice.candidates[*choice.chosen].milliseconds;
+    EXPECT_GT(cost, 0);
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.rung >= Rung::held_out && candidate.verdict.empty()) {
+            EXPECT_GE(candidate.milliseconds, cost);
+        }
+    for (std::size_t i = 0; i < *choice.chosen; ++i)
+        EXPECT_NE(choice.candidates[i].verdict, "") << nameOf(choice, i);
+
+    // What is written is what a study takes by include, as it was matched.
+    writeChoice(folder_ / "choice", study_, paid, choice);
+    const std::size_t techniques = text.find("[techniques]");
+    writeFile(folder_ / "choice" / "study.toml",
+              "include = [\"choice.toml\"]\n" + text.substr(0, techniques));
+    const MatchStudy included = readSweepStudy(folder_ / "choice" / "study.toml").match;
+    ASSERT_EQ(included.techniques.size(), 1u);
+    const Configuration& wanted = choice.candidates[*choice.chosen].configuration;
+    EXPECT_EQ(settingsOf(included.techniques[0], 0.2).named(),
+              settingsAt(wanted, 0.2, true).named());
+    writeChoice(folder_ / "choice", study_, impossible, choiceOf(impossible));
+    EXPECT_FALSE(fs::exists(folder_ / "choice" / "choice.toml")); // no stale answer
+}
+
+TEST_F(SweepTest, OneHeldOutViewGivesNoConfidence) {
+    SweepStudy study = study_;
+    study.match.test.resize(1);
+    Budget budget;
+    budget.rmse = 1;
+    EXPECT_THAT(test::errorOf([&] {
+                    choose(study, budget, {}, {folder_, folder_ / "cache"}, context_.driver(),
+                           [](double, double, const std::string&) {});
+                }),
+                testing::HasSubstr("expected at least two test views"));
 }
 
 TEST_F(SweepTest, ReferencesOfHoursAreRefusedFirst) {

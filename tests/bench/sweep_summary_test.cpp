@@ -28,8 +28,7 @@ TEST(OverViews, TakesMediansOfTimesAndRootMeanSquaresOfRmse) {
     std::vector<SweepRow> rows = {rowOf("hbao", "c", 10), rowOf("hbao", "a", 2),
                                   rowOf("hbao", "b", 3), rowOf("hbao", "d", 5)};
     for (std::size_t i = 0; i < 4; ++i) {
-        rows[i].matched = {i < 2 ? 1.0 : 7.0, i % 2 ? 0.5 : -0.5, 0.25 * static_cast<double>(i),
-                           0.5};
+        rows[i].matched = {i < 2 ? 1.0 : 7.0, i ? -0.5 : 0.5, 0.25 * static_cast<double>(i), 0.5};
         rows[i].work[1] = rows[i].total.median / 2;
         rows[i].thumbnail = std::to_string(i);
     }
@@ -38,8 +37,8 @@ TEST(OverViews, TakesMediansOfTimesAndRootMeanSquaresOfRmse) {
     EXPECT_EQ(point.total.low, 3);
     EXPECT_EQ(point.total.high, 5);
     EXPECT_EQ(point.work[1], 2);
-    EXPECT_EQ(point.matched.rmse, 5); // of 1, 1, 7, 7
-    EXPECT_EQ(point.matched.bias, 0);
+    EXPECT_EQ(point.matched.rmse, 5);    // of 1, 1, 7, 7
+    EXPECT_EQ(point.matched.bias, -0.5); // its size, whatever cancels out
     EXPECT_EQ(point.matched.ssim, 0.375);
     EXPECT_EQ(point.frames, 800);
     EXPECT_EQ(point.view, "a, b, c, d");
@@ -54,6 +53,32 @@ TEST(OverViews, DoesNotHideAViewThatWasNotMeasured) {
     EXPECT_TRUE(std::isnan(point.litRaw.flip));
     EXPECT_TRUE(std::isnan(point.toStarcraft));
     EXPECT_FALSE(std::isnan(point.litRaw.rmse));
+}
+
+TEST(AtTypicalSpeed, UndoesWhatSlowedWholeGroupsDown) {
+    std::vector<SweepRow> rows = {rowOf("a", "1", 20), rowOf("b", "1", 12),   rowOf("c", "1", 8),
+                                  rowOf("d", "1", 30), rowOf("none", "1", 0), rowOf("a", "2", 7)};
+    const double starcraft[] = {20, 10, 10, 10, 15, 3.5}; // in the rounds of each
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].toStarcraft = rows[i].total.median / starcraft[i];
+        rows[i].gbuffer = 4 * starcraft[i];
+        rows[i].work[1] = rows[i].total.median / 2;
+    }
+    const std::vector<SweepRow> typical = atTypicalSpeed(rows);
+    EXPECT_EQ(typical[0].total.median, 10); // measured while all took twice as long
+    EXPECT_EQ(typical[0].total.low, 9.5);
+    EXPECT_EQ(typical[0].work[1], 5);
+    EXPECT_EQ(typical[0].gbuffer, 40);
+    EXPECT_EQ(typical[0].toStarcraft, 1);
+    EXPECT_EQ(typical[1].total.median, 12);
+    EXPECT_EQ(typical[4].total.median, 0);
+    EXPECT_EQ(typical[5].total.median, 7); // another view is another picture
+    rows.pop_back();
+    const std::vector<SweepGroup> groups = groupsOf(rows);
+    std::vector<std::string> order;
+    for (const SweepRow& point : groups[0].points)
+        order.push_back(point.configuration);
+    EXPECT_THAT(order, ElementsAre("none", "c", "a", "b", "d"));
 }
 
 TEST(Groups, HaveAPointForEachConfigurationByCost) {
