@@ -82,6 +82,14 @@ std::string excess(const Budget& budget, std::span<const ViewResult> views) {
         std::vector<double> values;
         for (const ViewResult& view : views)
             values.push_back(view.*limit.value);
+        const auto unknown = std::count_if(values.begin(), values.end(),
+                                           [](double value) { return !std::isfinite(value); });
+        if (unknown) {
+            found.emplace_back(std::numeric_limits<double>::infinity(),
+                               fmt::format("{} unknown on {} of {} views, budget {:.3f}",
+                                           limit.spelt, unknown, values.size(), *most));
+            continue;
+        }
         const double bound = upperBound(values);
         if (!(bound <= *most))
             found.emplace_back(bound / *most,

@@ -11,10 +11,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <limits>
 #include <memory>
-#include <set>
 
 namespace obscura {
 
@@ -168,11 +166,11 @@ void Choosing::glance() {
         const MatchedTechnique& matched = fitted.at(technique.name);
         Candidate candidate;
         candidate.configuration = {technique, matched.fitted};
-        candidate.glance = summaryOf(matched.rows, nameOf(study.truth), "matched").rmse;
-        candidate.rmse = std::numeric_limits<double>::quiet_NaN();
-        if (budget_.rmse && candidate.glance > *budget_.rmse * glanceFactor + glanceMargin)
+        candidate.glanceRmse = summaryOf(matched.rows, nameOf(study.truth), "matched").rmse;
+        candidate.rmse = candidate.milliseconds = std::numeric_limits<double>::quiet_NaN();
+        if (budget_.rmse && candidate.glanceRmse > *budget_.rmse * glanceFactor + glanceMargin)
             candidate.verdict = fmt::format("RMSE {:.3f} at a glance, budget {:.3f}",
-                                            candidate.glance, *budget_.rmse);
+                                            candidate.glanceRmse, *budget_.rmse);
         choice_.candidates.push_back(std::move(candidate));
     }
 }
@@ -187,15 +185,16 @@ void Choosing::timeAll() {
         milliseconds(0, settings, glanceFrames, std::numeric_limits<double>::infinity(), false);
     for (std::size_t i = 0; i < times.size(); ++i) {
         Candidate& candidate = choice_.candidates[i];
-        candidate.milliseconds = times[i].median;
+        candidate.glanceMilliseconds = times[i].median;
         if (candidate.verdict.empty() && budget_.milliseconds &&
-            candidate.milliseconds > *budget_.milliseconds * glanceFactor)
+            candidate.glanceMilliseconds > *budget_.milliseconds * glanceFactor)
             candidate.verdict = fmt::format("{:.3g} ms at a glance, budget {:.3g}",
-                                            candidate.milliseconds, *budget_.milliseconds);
+                                            candidate.glanceMilliseconds, *budget_.milliseconds);
     }
-    std::stable_sort(
-        choice_.candidates.begin(), choice_.candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.milliseconds < b.milliseconds; });
+    std::stable_sort(choice_.candidates.begin(), choice_.candidates.end(),
+                     [](const Candidate& a, const Candidate& b) {
+                         return a.glanceMilliseconds < b.glanceMilliseconds;
+                     });
 }
 
 // Fitted on all training views, measured on all others at full size.
@@ -228,7 +227,8 @@ std::vector<std::size_t> Choosing::finalists(std::size_t& next) {
     for (; next < choice_.candidates.size(); ++next) {
         Candidate& candidate = choice_.candidates[next];
         if (!found.empty() &&
-            candidate.milliseconds > nearlyAlike * choice_.candidates[found.front()].milliseconds)
+            candidate.glanceMilliseconds >
+                nearlyAlike * choice_.candidates[found.front()].glanceMilliseconds)
             break;
         if (!candidate.verdict.empty())
             continue;

@@ -21,10 +21,11 @@ enum class Rung {
 struct Candidate {
     Configuration configuration;
     Rung rung = Rung::glance;
-    double milliseconds = 0;       // median, as matched; on the first view by the glance's fit, of
-                                   // finalists the mean of all views
-    double glance = 0, rmse = 0;   // of matched visibility: at a glance; mean of held-out views,
-                                   // NaN before that rung
+    // Median, and RMSE of matched visibility. At a glance: by the glance's fit, timed on the first
+    // held-out view, so that all candidates can be compared. Else the mean of all held-out views,
+    // of milliseconds as a sweep would have them; NaN of what was not measured.
+    double glanceMilliseconds = 0, milliseconds = 0;
+    double glanceRmse = 0, rmse = 0;
     std::vector<ViewResult> views; // from `held_out` on
     std::string verdict;           // why it fell out; "" for the chosen one and those not needed
 };

@@ -52,10 +52,10 @@ std::string limitsOf(const Budget& budget) {
 // The candidates that were looked at and would add something: on the front beyond the chosen one.
 std::vector<const Candidate*> dearer(const Choice& choice) {
     std::vector<const Candidate*> result;
-    double best = choice.candidates[*choice.chosen].glance;
+    double best = choice.candidates[*choice.chosen].glanceRmse;
     for (std::size_t i = *choice.chosen + 1; i < choice.candidates.size(); ++i)
-        if (choice.candidates[i].glance < best) {
-            best = choice.candidates[i].glance;
+        if (choice.candidates[i].glanceRmse < best) {
+            best = choice.candidates[i].glanceRmse;
             result.push_back(&choice.candidates[i]);
         }
     return result;
@@ -81,18 +81,19 @@ std::string fragment(const SweepStudy& study, const Budget& budget, const Candid
 std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
 
 std::string table(const Choice& choice) {
-    std::string text = "configuration,rung,ms,glance_rmse,rmse,verdict\n";
+    std::string text = "configuration,rung,glance_ms,ms,glance_rmse,rmse,verdict\n";
     for (const Candidate& candidate : choice.candidates)
-        text += fmt::format("{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
-                            nameOf(candidate.rung), candidate.milliseconds, cell(candidate.glance),
+        text += fmt::format("{},{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
+                            nameOf(candidate.rung), candidate.glanceMilliseconds,
+                            cell(candidate.milliseconds), cell(candidate.glanceRmse),
                             cell(candidate.rmse), csvCell(candidate.verdict));
     return text;
 }
 
 // What is free has no logarithm: it stands at the chart's left edge.
 std::string line(const Candidate& candidate, double least) {
-    return fmt::format("{} {} {} \"{}\"\n", std::max(candidate.milliseconds, least),
-                       candidate.glance, candidate.rmse, nameOf(candidate));
+    return fmt::format("{} {} {} \"{}\"\n", std::max(candidate.glanceMilliseconds, least),
+                       candidate.glanceRmse, candidate.rmse, nameOf(candidate));
 }
 
 std::string lines(const Choice& choice, double least, Rung from) {
@@ -107,8 +108,8 @@ std::string lines(const Choice& choice, double least, Rung from) {
 std::string glanceFront(const Choice& choice, double least) {
     std::vector<ParetoPoint> points;
     for (const Candidate& candidate : choice.candidates)
-        points.push_back(
-            {std::max(candidate.milliseconds, least), candidate.glance, nameOf(candidate)});
+        points.push_back({std::max(candidate.glanceMilliseconds, least), candidate.glanceRmse,
+                          nameOf(candidate)});
     std::string text;
     for (const std::size_t i : paretoFront(points))
         text += fmt::format("{} {}\n", points[i].milliseconds, points[i].error);
@@ -137,15 +138,16 @@ std::string plotOf(std::span<const Series> all) {
 Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& choice) {
     double least = 1e9;
     for (const Candidate& candidate : choice.candidates)
-        if (candidate.milliseconds > 0)
-            least = std::min(least, candidate.milliseconds);
+        if (candidate.glanceMilliseconds > 0)
+            least = std::min(least, candidate.glanceMilliseconds);
     least /= 2;
     Figure figure{"choice", "Time against error of the candidates, and the choice", "", 8, 5.5};
     figure.script = fmt::format(
         "set logscale x\nset xlabel {}\nset ylabel {}\nset key outside below\nset bmargin 7\nset "
         "grid lc rgb "
         "'#dddddd'\nset yrange [0:*]\nset xrange [{}:*]\n",
-        gnuplotText(fmt::format("milliseconds at {} x {} (logarithmic; free ones at the left edge)",
+        gnuplotText(fmt::format("milliseconds at a glance, {} x {} (logarithmic; free ones at the "
+                                "left edge)",
                                 study.sizes.front().width, study.sizes.front().height)),
         gnuplotText("RMSE of matched visibility"), least * 0.9);
     if (budget.rmse)
@@ -173,30 +175,31 @@ Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& cho
 
 std::string choiceText(const SweepStudy& study, const Budget& budget, const Choice& choice) {
     std::string text = fmt::format(
-        "{} candidates, {} held-out views, {}; {:.0f} s besides references\n",
+        "{} candidates, {} held-out views, {}; {:.0f} s besides references of held-out views\n",
         choice.candidates.size(), study.match.test.size(), limitsOf(budget), choice.seconds);
+    const auto add = [&](const Candidate& candidate, const std::string& words) {
+        text += fmt::format("  {:<34} {:>8.3g} ms  {}\n", nameOf(candidate),
+                            candidate.glanceMilliseconds, words);
+    };
     if (!choice.chosen) {
-        text += "None meets the budget. Why, the cheapest first:\n";
+        text += "None meets the budget. Why, the cheapest at a glance first:\n";
         for (const Candidate& candidate : choice.candidates)
-            text += fmt::format("  {:<34} {:>8.3g} ms  {}\n", nameOf(candidate),
-                                candidate.milliseconds, candidate.verdict);
+            add(candidate, candidate.verdict);
         return text;
     }
     const Candidate& chosen = choice.candidates[*choice.chosen];
-    text += fmt::format("Chosen: {}, {:.3g} ms, RMSE {:.3f}\n", nameOf(chosen), chosen.milliseconds,
-                        chosen.rmse);
-    text += *choice.chosen ? "Cheaper ones, and why not:\n" : "";
+    text += fmt::format("Chosen: {}, {:.3g} ms, RMSE {:.3f} on held-out views; at a glance {:.3g} "
+                        "ms, RMSE {:.3f}\n",
+                        nameOf(chosen), chosen.milliseconds, chosen.rmse, chosen.glanceMilliseconds,
+                        chosen.glanceRmse);
+    text += *choice.chosen ? "Cheaper ones at a glance, and why not:\n" : "";
     for (std::size_t i = 0; i < *choice.chosen; ++i)
-        text += fmt::format("  {:<34} {:>8.3g} ms  {}\n", nameOf(choice.candidates[i]),
-                            choice.candidates[i].milliseconds, choice.candidates[i].verdict);
+        add(choice.candidates[i], choice.candidates[i].verdict);
     const auto more = dearer(choice);
     text += more.empty() ? "Nothing dearer adds anything.\n"
-                         : fmt::format("What dearer ones would add (at a glance, where the chosen "
-                                       "one has RMSE {:.3f}):\n",
-                                       chosen.glance);
+                         : "What dearer ones would add at a glance:\n";
     for (const Candidate* candidate : more)
-        text += fmt::format("  {:<34} {:>8.3g} ms  RMSE {:.3f}\n", nameOf(*candidate),
-                            candidate->milliseconds, candidate->glance);
+        add(*candidate, fmt::format("RMSE {:.3f}", candidate->glanceRmse));
     return text;
 }
 

@@ -154,6 +154,8 @@ std::string answerOf(Sweep sweep, const SweepStudy& study, const Folders& folder
     if (sweep.machine.study != identityOf(study, hashes))
         throw Error("expected --sweep to name a sweep of this study with these options and scenes, "
                     "found one of another study, of an earlier text of it, or with others");
+    if (const std::string lacking = incompleteness(sweep); !lacking.empty())
+        throw Error("expected --sweep to name a finished sweep, found " + lacking);
     const ImageSize& size = study.sizes.front();
     std::erase_if(sweep.rows, [&](const SweepRow& row) {
         return row.width != size.width || row.height != size.height;
@@ -181,6 +183,13 @@ SweepStudy studyOf(const ChooseOptions& options, const Folders& folders) {
     return study;
 }
 
+// Nothing at all may be good enough.
+void addNone(MatchStudy& study) {
+    if (std::none_of(study.techniques.begin(), study.techniques.end(),
+                     [](const TechniqueSetting& each) { return each.technique == "none"; }))
+        study.techniques.push_back({"none", "none", {}, {}});
+}
+
 int runChoose(const ChooseOptions& options) {
     Budget budget = budgetOf(options.limits);
     budget.failures = options.failures;
@@ -188,6 +197,7 @@ int runChoose(const ChooseOptions& options) {
     const gl::Context context(options.study.device);
     SweepStudy study = studyOf(options, folders);
     adjust(study, options.study, quickChooseViews);
+    addNone(study.match);
     const std::string bySweep =
         options.sweep.empty() ? "" : answerOf(readSweep(options.sweep), study, folders, budget);
     study.sizes.resize(1);
@@ -268,9 +278,8 @@ std::vector<Command> sweepCommands(CLI::App& app) {
             {merging,
              [options, folders] {
                  const Sweep all = mergeSweeps(*folders, options->study.out);
-                 if (const auto missing = missingParts(all.machine); !missing.empty())
-                     fmt::print(stderr, "Warning: of the study, part {} is not among these\n",
-                                fmt::join(missing, ", "));
+                 if (const std::string lacking = incompleteness(all); !lacking.empty())
+                     fmt::print(stderr, "Warning: {}\n", lacking);
                  writePage(options->study.out);
                  return 0;
              }},

@@ -150,8 +150,7 @@ std::vector<StabilityCell> keptCells(const StabilityOptions& options) {
     std::erase_if(cells, [&](const StabilityCell& cell) {
         return contains(tests, cell.test) &&
                (contains(options.configurations, cell.configuration) ||
-                cell.configuration == truthName ||
-                cell.measure == worstFlicker); // its animated picture is written anew
+                cell.configuration == truthName);
     });
     return cells;
 }

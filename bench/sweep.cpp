@@ -74,6 +74,7 @@ class Sweeping {
     double configurationCost(const ImageSize& size) const {
         return study_.seconds + 4 * renderCost(size);
     }
+    bool lacksGrowth() const;
     double growthCost() const;
 
     const SweepStudy& study_;
@@ -97,7 +98,8 @@ std::string keyOf(const std::string& configuration, const std::string& scene,
 // Rows of an earlier run count when nothing that decides them has changed since.
 void Sweeping::open() {
     sweep_.machine = machineOf(driver_, timing_, identityOf(study_, hashes_));
-    sweep_.machine.part = fmt::format("{}/{}", plan_.part, plan_.parts);
+    sweep_.machine.rows = static_cast<int>(study_.match.techniques.size() *
+                                           study_.match.test.size() * study_.sizes.size());
     removeUnfinishedFiles(plan_.folder);
     if (!fs::exists(plan_.folder / "sweep.json"))
         return;
@@ -110,8 +112,12 @@ void Sweeping::open() {
             keyOf(row.configuration, row.scene, row.view, row.radius, row.width, row.height));
 }
 
+bool Sweeping::lacksGrowth() const {
+    return study_.growth && plan_.part == 1 && sweep_.growth.empty();
+}
+
 double Sweeping::growthCost() const {
-    if (!study_.growth || plan_.part > 1 || !sweep_.growth.empty())
+    if (!lacksGrowth())
         return 0;
     return growthSteps(*study_.growth) * static_cast<double>(study_.growth->techniques.size()) *
            study_.seconds;
@@ -231,9 +237,10 @@ void Sweeping::addErrors(SweepRow& row, MeasuredView& seen, const Configuration&
         (matched ? row.litMatched : row.litRaw) = errors.lit;
         if (!matched)
             continue;
-        row.thumbnail = fmt::format("thumbnails/{}.png",
-                                    plainName(fmt::format("{} {} {} {:g}", row.configuration,
-                                                          row.view, row.width, row.radius)));
+        row.thumbnail =
+            fmt::format("thumbnails/{}.png",
+                        plainName(fmt::format("{} {} {} {} {:g}", row.configuration, row.view,
+                                              row.width, row.height, row.radius)));
         const int width = 320, height = std::max(1, width * row.height / row.width);
         writePng(plan_.folder / row.thumbnail,
                  sideBySide(shrunk(grey(image), width, height),
@@ -277,8 +284,7 @@ void Sweeping::measureScene(const std::string& sceneSha256) {
                     seen, std::span(todo).subspan(first, std::min(groupSize, todo.size() - first)));
         }
     for (const View& view : viewsOf(study_))
-        if (growthCost() > 0 && view.name == study_.growth->view &&
-            hashes_.of(view) == sceneSha256) {
+        if (lacksGrowth() && view.name == study_.growth->view && hashes_.of(view) == sceneSha256) {
             load(view);
             grow(*subject, view);
         }
@@ -315,6 +321,8 @@ std::string identityOf(const SweepStudy& study, SceneHashes& hashes) {
     for (const View& view : viewsOf(study))
         text += fmt::format("\n{} {:g} {}", view.name, view.radius, hashes.of(view));
     std::for_each(study.sizes.begin(), study.sizes.end(), add);
+    if (study.light && !study.light->environment.empty())
+        text += "\n" + sha256(readFile(hashes.folders().protocol / study.light->environment));
     if (study.growth) {
         std::for_each(study.growth->sizes.begin(), study.growth->sizes.end(), add);
         text += fmt::format("\n{}", fmt::join(study.growth->radii, " "));

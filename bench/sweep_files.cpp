@@ -9,11 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
-#include <set>
-#include <sstream>
 #include <type_traits>
 
 namespace obscura {
@@ -96,7 +93,6 @@ void eachField(Machine& machine, Visit visit) {
     visit("study", machine.study);
     visit("clocks", machine.clocks);
     visit("date", machine.date);
-    visit("part", machine.part);
 }
 
 std::string spelt(const std::string& text) { return csvCell(text); }
@@ -171,9 +167,12 @@ SweepMachine readMachine(const fs::path& path) {
         const auto root = nlohmann::json::parse(readFile(path));
         eachField(machine, [&](const std::string& name, std::string& value) {
             if (!root.contains(name) || !root[name].is_string())
-                throw Error({file, 0, 0, name}, "expected a text of this name");
+                throw Error({file, 0, 0, name},
+                            fmt::format("expected a text of this name, found {}",
+                                        root.contains(name) ? root[name].dump() : "none"));
             root[name].get_to(value);
         });
+        machine.rows = root.value("rows", 0);
     } catch (const nlohmann::json::exception& error) { // says line and column itself
         throw Error({file, 0, 0, {}}, fmt::format("expected JSON: {}", error.what()));
     }
@@ -183,6 +182,7 @@ SweepMachine readMachine(const fs::path& path) {
 std::string machineJson(const SweepMachine& machine) {
     nlohmann::ordered_json root;
     eachField(machine, [&](const auto& name, const std::string& value) { root[name] = value; });
+    root["rows"] = machine.rows;
     return root.dump(2) + "\n";
 }
 
@@ -227,12 +227,13 @@ void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first
         const std::string& other = *others.at(name);
         if (keptEqual(name, value) == keptEqual(name, other))
             return;
-        if (name != "clocks" && name != "date" && name != "part")
+        if (name != "clocks" && name != "date")
             throw Error({(folder / "sweep.json").string(), 0, 0, name},
                         fmt::format("expected \"{}\", as {}, found \"{}\"; rows can stand "
                                     "in one folder only if this is the same; --out names another",
                                     value, first, other));
-        if (fmt::format(", {}, ", value).find(fmt::format(", {}, ", other)) == value.npos)
+        if (!other.empty() &&
+            fmt::format(", {}, ", value).find(fmt::format(", {}, ", other)) == value.npos)
             value += (value.empty() ? "" : ", ") + other;
     });
 }
@@ -248,20 +249,13 @@ Sweep readSweep(const fs::path& folder) {
             rowsOf<GrowthRow>(folder / "growth.csv")};
 }
 
-std::vector<std::string> missingParts(const SweepMachine& machine) {
-    std::set<int> found;
-    int parts = 0;
-    std::istringstream list(machine.part);
-    for (std::string part; std::getline(list, part, ',');) {
-        const std::size_t slash = std::min(part.find('/'), part.size() - 1);
-        found.insert(std::atoi(part.c_str()));
-        parts = std::max(parts, std::atoi(part.c_str() + slash + 1));
-    }
-    std::vector<std::string> missing;
-    for (int i = 1; i <= parts; ++i)
-        if (!found.contains(i))
-            missing.push_back(fmt::format("{}/{}", i, parts));
-    return missing;
+std::string incompleteness(const Sweep& sweep) {
+    const auto whole = static_cast<std::size_t>(sweep.machine.rows);
+    return sweep.rows.size() >= whole
+               ? ""
+               : fmt::format("{} of the study's {} rows; the others are in other parts, or were "
+                             "not measured yet",
+                             sweep.rows.size(), whole);
 }
 
 Sweep mergeSweeps(const std::vector<fs::path>& parts, const fs::path& folder) {

@@ -19,13 +19,13 @@ void writeSweep(const std::filesystem::path& folder, const Sweep& sweep);
 // An Error names file, line and column.
 Sweep readSweep(const std::filesystem::path& folder);
 
-// Adds to `all` the clocks, dates and parts of another run, whose folder an Error names if anything
+// Adds to `all` the clocks and dates of another run, whose folder an Error names if anything
 // else differs: studies, programs, methods, machines. `first` says where those of `all` come from.
 void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first,
                   const std::filesystem::path& folder);
 
-// Parts of the study, like "2/3", that the machine's text does not name.
-std::vector<std::string> missingParts(const SweepMachine& machine);
+// "measured 30 of 180 rows; ..." of a sweep that was interrupted or lacks parts; "" of a whole one.
+std::string incompleteness(const Sweep& sweep);
 
 // Writes the parts of one study as one sweep, with their thumbnails, into a folder that has none.
 // An Error says what was measured twice and where, or in what they differ.

@@ -243,7 +243,8 @@ std::string growthSection(const Sweep& sweep) {
                    charts + "</div>\n" + slopesHtml(growth, techniqueOf));
 }
 
-std::string introduction(const SweepMachine& machine) {
+std::string introduction(const Sweep& sweep) {
+    const SweepMachine& machine = sweep.machine;
     std::string html = element("h1", "Speed against accuracy");
     html +=
         element("p", format("Measured on {} ({}, OpenGL {}) with {}, {}. Times by {}. {}.",
@@ -252,9 +253,8 @@ std::string introduction(const SweepMachine& machine) {
                             machine.method, machine.date));
     html += format("<p class=\"aside hash\">{}; study {}</p>\n", escaped(machine.program),
                    escaped(machine.study));
-    if (const auto missing = missingParts(machine); !missing.empty())
-        html += format("<p class=\"warning\">Not the whole study: part {} is missing.</p>\n",
-                       fmt::join(missing, ", "));
+    if (const std::string lacking = incompleteness(sweep); !lacking.empty())
+        html += format("<p class=\"warning\">Not the whole study: {}.</p>\n", lacking);
     if (gl::isSoftware(machine.renderer))
         html +=
             "<p class=\"warning\">This renderer is software. What is fast on a processor need not "
@@ -322,7 +322,7 @@ std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
                                 std::string(sweepPageStyle) + measureStyle() +
                                     techniqueStyle(techniques.size()) + thumbnails.style,
                                 true) +
-                       shapes(techniques.size()) + introduction(sweep.machine);
+                       shapes(techniques.size()) + introduction(sweep);
     if (thumbnails.leftOut > 0)
         html += format("<p class=\"aside\">To keep the page small, the thumbnails of {} "
                        "configurations off every front are only in the sweep's folder.</p>\n",

@@ -60,7 +60,7 @@ struct SweepMachine {
     std::string vendor, renderer, glVersion, processor, clocks; // clocks: "" when unknown
     std::string method; // "timer queries" or "glFinish and steady clock", and why
     std::string program, study, date;
-    std::string part = "1/1"; // or "2/3", "1/3, 2/3": which of the study's configurations
+    int rows = 0; // that all configurations give on all views at all sizes; 0: not known
 };
 
 struct Sweep {

@@ -1,5 +1,6 @@
 #include "bench/sweep_tables.h"
 
+#include "bench/timing.h"
 #include "renderer/technique.h"
 
 #include <fmt/format.h>
@@ -79,6 +80,14 @@ AblationTable::Column emptyColumn(const SweepGroup& group) {
     return column;
 }
 
+// What both have is the same.
+bool agree(const Named& one, const Named& other) {
+    return std::all_of(one.begin(), one.end(), [&](const auto& setting) {
+        const auto at = other.find(setting.first);
+        return at == other.end() || at->second == setting.second;
+    });
+}
+
 // The tables that a scene's cells call for: their settings and kinds of culling, where they hold
 // more than one variant. Adaptive alone is a table only where nothing was culled.
 std::set<std::pair<std::string, std::string>> tablesIn(const std::vector<Cell>& cells) {
@@ -106,10 +115,11 @@ void fill(AblationTable& table, const std::string& settings, const std::string& 
             column.milliseconds[cell.samples][cell.variant] = cell.milliseconds;
             column.rmse[cell.samples][cell.variant] = cell.rmse;
         }
-    for (const SweepRow& row : group.points) // the cheapest first
+    for (const SweepRow& row : group.points)
         if (row.technique == "vao") {
-            const std::size_t samples = placeOfSamples(settingsIn(row.settings)["samples"]);
-            if (samples < column.vao.size() && std::isnan(column.vao[samples]))
+            Named own = settingsIn(row.settings);
+            const std::size_t samples = placeOfSamples(taken(own, "samples"));
+            if (samples < column.vao.size() && agree(own, settingsIn(settings)))
                 column.vao[samples] = row.total.median;
         }
     table.columns.push_back(column);
@@ -131,7 +141,16 @@ std::size_t placeInTable(const std::string& id) {
         table.begin());
 }
 
-void add(const SweepRow& row, FrameRates& rates) {
+// Of the view's rows: the pass is the same one in all of them.
+double gbufferOf(const std::string& view, const std::vector<const SweepRow*>& rows) {
+    std::vector<double> times;
+    for (const SweepRow* row : rows)
+        if (row->view == view)
+            times.push_back(row->gbuffer);
+    return summaryOf(std::move(times)).median;
+}
+
+void add(const SweepRow& row, double gbuffer, FrameRates& rates) {
     const auto view = std::find(rates.views.begin(), rates.views.end(), row.view);
     if (view == rates.views.end())
         return;
@@ -142,7 +161,7 @@ void add(const SweepRow& row, FrameRates& rates) {
         line = std::prev(rates.lines.end());
     }
     line->milliseconds[static_cast<std::size_t>(view - rates.views.begin())] =
-        row.gbuffer + row.total.median;
+        gbuffer + row.total.median;
 }
 
 } // namespace
@@ -193,14 +212,17 @@ std::vector<FrameRates> frameRates(const std::vector<SweepRow>& rows) {
     std::vector<FrameRates> all;
     const std::vector<SweepRow> typical = atTypicalSpeed(rows);
     for (const SweepGroup& group : groupsOf(rows)) {
-        std::vector<const SweepRow*> members;
+        std::vector<const SweepRow*> members, defaults;
         for (const SweepRow& row : typical)
             if (row.scene == group.scene && row.width == group.width &&
-                row.height == group.height && row.radius == group.radius && hasDefaultSettings(row))
+                row.height == group.height && row.radius == group.radius) {
                 members.push_back(&row);
-        FrameRates rates{titleOf(group), firstViews(members), {}};
-        for (const SweepRow* row : members)
-            add(*row, rates);
+                if (hasDefaultSettings(row))
+                    defaults.push_back(&row);
+            }
+        FrameRates rates{titleOf(group), firstViews(defaults), {}};
+        for (const SweepRow* row : defaults)
+            add(*row, gbufferOf(row->view, members), rates);
         std::stable_sort(rates.lines.begin(), rates.lines.end(), [](const auto& a, const auto& b) {
             return placeInTable(a.technique) < placeInTable(b.technique);
         });

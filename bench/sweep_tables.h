@@ -37,7 +37,8 @@ const AblationTable& publishedAblation();
 struct FrameRates {
     struct Line { // one technique; NaN for a view without it
         std::string technique;
-        std::vector<double> milliseconds; // G-buffer and technique, without lighting; per view
+        // G-buffer (the view's median) and technique, without lighting; per view
+        std::vector<double> milliseconds;
     };
     std::string title;              // of the group
     std::vector<std::string> views; // at most four

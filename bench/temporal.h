@@ -44,8 +44,8 @@ struct TemporalStudy {
 // The name of the 99th percentile of the headline among the cells' measures.
 inline constexpr std::string_view unrealChange99 = "unreal change, 99th percentile";
 
-// The measure of the one cell whose picture moves (temporal_animation.h).
-inline constexpr std::string_view worstFlicker = "the worst flicker of all";
+// The measure of a run's one cell whose picture moves (temporal_animation.h).
+inline constexpr std::string_view worstFlicker = "the worst flicker of the run";
 
 // Told the share done, 0 ... 1, and the test at hand.
 using TemporalProgress = std::function<void(double, const std::string&)>;

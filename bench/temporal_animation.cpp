@@ -1,14 +1,16 @@
 #include "bench/temporal_animation.h"
 
+#include "bench/stability_csv.h"
 #include "bench/temporal_pictures.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace obscura {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -37,7 +39,7 @@ std::optional<Choice> choose(const TemporalStudy& study, std::span<const MotionR
         if (record.truths.size() < static_cast<std::size_t>(study.effort.frames))
             continue;
         const std::vector<std::size_t> order = ranked(study, record);
-        if (order.size() >= 2 &&
+        if (!order.empty() &&
             (!choice || record.unreal[order.back()] > choice->record->unreal[choice->worst]))
             choice = {&record, order.back(), order.front()};
     }
@@ -59,7 +61,9 @@ std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Sh
     const std::optional<Choice> choice = choose(study, records);
     if (!choice)
         return std::nullopt;
-    const std::array which{choice->worst, choice->best};
+    std::vector<std::size_t> which{choice->worst};
+    if (choice->best != choice->worst)
+        which.push_back(choice->best);
     const TemporalTest& test = *choice->record->test;
     std::vector<Image8> frames;
     std::optional<Shot> before;
@@ -79,9 +83,10 @@ std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Sh
         }
         before = std::move(shot);
     }
-    const std::string name = fmt::format("pictures/{}-worst-and-best.gif", test.test.id);
-    writeGif(study.folder / name, frames, framesPerSecond);
     const NamedSettings& worst = study.configurations[choice->worst];
+    const std::string name =
+        fs::path(pictureName(test.test.id, worst.name)).replace_extension("gif").string();
+    writeGif(study.folder / name, frames, framesPerSecond);
     const auto unreal = [&](std::size_t i) { return choice->record->unreal[i]; };
     return StabilityCell{worst.name,
                          std::string(worst.settings.technique().id),
@@ -89,9 +94,10 @@ std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Sh
                          std::string(worstFlicker),
                          unreal(choice->worst),
                          name,
-                         fmt::format("below it the steadiest, {}: {:.3f}",
-                                     study.configurations[choice->best].name,
-                                     unreal(choice->best))};
+                         which.size() < 2 ? ""
+                                          : fmt::format("below it the steadiest, {}: {:.3f}",
+                                                        study.configurations[choice->best].name,
+                                                        unreal(choice->best))};
 }
 
 } // namespace obscura

@@ -15,11 +15,11 @@ struct MotionRecord {
     std::vector<double> truthfulness; // occlusion shown, of the truth's: above 1, too dark
 };
 
-// Writes the worst flicker as an animated GIF, and below it the best on the same path: visibility,
-// the truth, and unreal change (temporal_measures.h). Only techniques that show half of the truth's
-// occlusion or more are considered: what shows nothing is steady; and only paths on which every
-// frame is another. Gives the worst one's cell, with the file in the study's folder as its picture;
-// none with fewer than two such techniques.
+// Writes the worst flicker as an animated GIF, and below it the best on the same path, if it is
+// another's: visibility, the truth, and unreal change (temporal_measures.h). Only techniques that
+// show half of the truth's occlusion or more are considered: what shows nothing is steady; and only
+// paths on which every frame is another. Gives the worst one's cell, with the file in the study's
+// folder as its picture; none without such a technique.
 std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Shots& shots,
                                             std::uint64_t noiseSeed,
                                             std::span<const MotionRecord> records);

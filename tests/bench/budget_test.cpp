@@ -22,13 +22,17 @@ TEST(Budget, WorstExcessComesFirst) {
     const Budget budget = budgetOf(limits);
     const ViewResult good{0.05, 0.1, 0, 1}, slow{0.05, 0.1, 0, 5}, wrong{0.2, 0.1, 0, 1};
     EXPECT_EQ(excess(budget, std::vector{good, good}), "");
-    EXPECT_EQ(excess(budget, std::vector{good, slow}), "5 ms in 95 of 100 frames on the dearest view, budget 2");
+    EXPECT_EQ(excess(budget, std::vector{good, slow}),
+              "5 ms in 95 of 100 frames on the dearest view, budget 2");
     EXPECT_THAT(
         excess(budget, std::vector{wrong, wrong}),
         testing::StartsWith("RMSE 0.200 (at most 0.200 with 95 % confidence), budget 0.100"));
-    // What was not measured meets no limit.
-    const ViewResult unknown{std::nan(""), 0.1, 0, 1};
-    EXPECT_NE(excess(budget, std::vector{unknown, unknown}), "");
+    // What was not measured meets no limit, and is worse than what is far over one.
+    const ViewResult unknown{std::nan(""), 0.1, 0, 1}, endless{HUGE_VAL, 9, 0, 1};
+    EXPECT_EQ(excess(budget, std::vector{unknown, good}),
+              "RMSE unknown on 1 of 2 views, budget 0.100");
+    EXPECT_THAT(excess(budget, std::vector{endless, endless}),
+                testing::StartsWith("RMSE unknown on 2 of 2 views, budget 0.100; FLIP 9.000 (at"));
 }
 
 TEST(Budget, MistakesNameWhatThereIs) {

@@ -166,6 +166,26 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     EXPECT_FALSE(fs::exists(folder_ / "choice" / "choice.toml")); // no stale answer
 }
 
+// A hidden face stays lit without occlusion; a plane without acne is what it is, but no picture
+// that moves is free of change.
+TEST_F(SweepTest, ChoosesByWhatAStillPictureDoesNotShow) {
+    SweepStudy study = study_;
+    study.match.techniques.resize(1);
+    ASSERT_EQ(study.match.techniques[0].technique, "none");
+    const auto verdictOn = [&](const Budget& budget) {
+        return choose(study, budget, {}, {folder_, folder_ / "cache"}, context_.driver(),
+                      [](double, double, const std::string&) {})
+            .candidates[0]
+            .verdict;
+    };
+    Budget budget;
+    budget.failures = {"hidden"};
+    EXPECT_THAT(verdictOn(budget), testing::StartsWith("hidden: "));
+    budget.failures = {"plane"};
+    budget.flicker = 1e-6;
+    EXPECT_THAT(verdictOn(budget), testing::StartsWith("flicker 0.0"));
+}
+
 TEST_F(SweepTest, OneHeldOutViewGivesNoConfidence) {
     SweepStudy study = study_;
     study.match.test.resize(1);

@@ -88,13 +88,13 @@ TEST(Ablation, ComparesOnlyWhatIsOtherwiseEqual) {
 
 TEST(Ablation, HasTheOlderTechniqueBesideIt) {
     std::vector<SweepRow> rows{vaoRow(settingsOf(8, 0, 0), 4), vaoRow(settingsOf(8, 1, 2), 3)};
-    for (const double milliseconds : {7.0, 6.0}) {
-        rows.push_back(vaoRow("samples=8 radius=0.5 blur=0", milliseconds));
+    for (const int blur : {0, 1}) { // VAO++ has 1
+        rows.push_back(vaoRow(fmt::format("samples=8 radius=0.5 own=3 blur={}", blur), 6 + blur));
         rows.back().technique = "vao";
-        rows.back().configuration = fmt::format("vao {}", milliseconds);
+        rows.back().configuration = fmt::format("vao blur={}", blur);
     }
     const auto& column = ablationTables(groupsOf(rows))[0].columns[0];
-    EXPECT_EQ(column.vao[2], 6); // the cheapest with as many lines
+    EXPECT_EQ(column.vao[2], 7);
     EXPECT_TRUE(std::isnan(column.vao[3]));
 }
 
@@ -135,6 +135,17 @@ TEST(FrameRates, AreThoseOfDefaultSettingsOnFourViews) {
     EXPECT_EQ(all[0].lines[0].technique, "hbao");
     EXPECT_THAT(all[0].lines[0].milliseconds, ElementsAre(3, 4, 5, 6));
     EXPECT_TRUE(std::isnan(all[0].lines[1].milliseconds[1]));
+}
+
+TEST(FrameRates, AreOfOneGBufferPerView) {
+    std::vector<SweepRow> rows = {defaultRow("hbao", 1), defaultRow("gtao", 1),
+                                  defaultRow("starcraft", 1)};
+    rows[0].gbuffer = 9; // another program ran, perhaps
+    rows[2].settings = "samples=3";
+    const auto all = frameRates(rows);
+    ASSERT_THAT(all, SizeIs(1));
+    for (const FrameRates::Line& line : all[0].lines)
+        EXPECT_THAT(line.milliseconds, ElementsAre(3)) << line.technique;
 }
 
 TEST(FrameRates, DoNotTakeUnknownTechniquesForDefaults) {

@@ -92,7 +92,9 @@ TEST_F(Temporal, WritesTheCellsPicturesAndTheAnimation) {
     const Image8 strip = readImage8(folder_ / "pictures/turn-alchemy.png");
     EXPECT_EQ(strip.width, 3 * 64);
     EXPECT_EQ(cells.back().measure, worstFlicker);
-    EXPECT_EQ(cells.back().picture, "pictures/turn-worst-and-best.gif"); // a cut is no path
+    EXPECT_EQ(cells.back().test, "turn"); // a cut is no path
+    EXPECT_EQ(cells.back().picture, "pictures/turn-" + cells.back().configuration + ".gif");
+    EXPECT_TRUE(fs::exists(folder_ / cells.back().picture));
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
     EXPECT_EQ(shares.size(), 8);
 }
