@@ -196,7 +196,8 @@ std::string ablationSection(const std::vector<SweepGroup>& groups) {
         "ablation", "What the extensions of VAO++ save",
         "Milliseconds by samples (lines), each extension alone and both together; in per cent of "
         "VAO++ without either; the fastest in bold. Below, matched RMSE. First, the technique of "
-        "2010 with as many lines, where it was measured. In grey, what the paper printed: "
+        "2010 with as many lines and otherwise equal settings, where it was measured. In grey, "
+        "what the paper printed: "
         "Bokšanský, Pospíšil and Bittner 2017, Table 1, in Unity on a GTX 970 (per cent from "
         "these milliseconds). "
         "Ratios can be compared across machines, milliseconds cannot.",
