@@ -92,8 +92,11 @@ std::string table(const Choice& choice) {
 
 // What is free has no logarithm: it stands at the chart's left edge.
 std::string line(const Candidate& candidate, double least) {
-    return fmt::format("{} {} {} \"{}\"\n", std::max(candidate.glanceMilliseconds, least),
-                       candidate.glanceRmse, candidate.rmse, nameOf(candidate));
+    std::vector<double> rmse;
+    for (const ViewResult& view : candidate.views)
+        rmse.push_back(view.rmse);
+    return fmt::format("{} {} {} \"{}\" {}\n", std::max(candidate.glanceMilliseconds, least),
+                       candidate.glanceRmse, candidate.rmse, nameOf(candidate), upperBound(rmse));
 }
 
 std::string lines(const Choice& choice, double least, Rung from) {
@@ -160,11 +163,10 @@ Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& cho
     const Series series[] = {
         {"using 1:2 with steps lc rgb '#888888'", "Pareto front at a glance",
          glanceFront(choice, least)},
-        {"using 1:2:(0):($3-$2) with vectors nohead lc rgb '#9CC7E0'", "", measured},
         {"using 1:2 with points pt 6 ps 0.8 lc rgb '#888888'", "at a glance: small, one view",
          lines(choice, least, Rung::glance)},
-        {"using 1:3 with points pt 7 ps 1 lc rgb '#0072B2'", "the same, measured on held-out views",
-         measured},
+        {"using 1:3:3:5 with yerrorbars pt 7 ps 1 lc rgb '#0072B2'",
+         "measured on held-out views, mean and 95 % bound", measured},
         {"using 1:3 with points pt 7 ps 1.8 lc rgb '#009E73'", "chosen", chosen},
         {"using 1:3:4 with labels left offset 1.2, 0", "", chosen}};
     figure.script += plotOf(series);
