@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <span>
 
 namespace obscura {
@@ -49,12 +50,15 @@ std::string limitsOf(const Budget& budget) {
     return text;
 }
 
-// The candidates that were looked at and would add something: on the front beyond the chosen one.
+// The candidates that would add something: on the front at a glance beyond the chosen one, but for
+// those that were measured and failed.
 std::vector<const Candidate*> dearer(const Choice& choice) {
     std::vector<const Candidate*> result;
     double best = choice.candidates[*choice.chosen].glanceRmse;
     for (std::size_t i = *choice.chosen + 1; i < choice.candidates.size(); ++i)
-        if (choice.candidates[i].glanceRmse < best) {
+        if (choice.candidates[i].glanceRmse < best &&
+            !(choice.candidates[i].rung == Rung::held_out &&
+              !choice.candidates[i].verdict.empty())) {
             best = choice.candidates[i].glanceRmse;
             result.push_back(&choice.candidates[i]);
         }
@@ -95,14 +99,18 @@ std::string line(const Candidate& candidate, double least) {
     std::vector<double> rmse;
     for (const ViewResult& view : candidate.views)
         rmse.push_back(view.rmse);
-    return fmt::format("{} {} {} \"{}\" {}\n", std::max(candidate.glanceMilliseconds, least),
-                       candidate.glanceRmse, candidate.rmse, nameOf(candidate), upperBound(rmse));
+    return fmt::format("{} {} {} \"{}\" {} {}\n", std::max(candidate.glanceMilliseconds, least),
+                       candidate.glanceRmse, candidate.rmse, nameOf(candidate), upperBound(rmse),
+                       std::max(candidate.milliseconds, least));
 }
 
-std::string lines(const Choice& choice, double least, Rung from) {
+bool isFinalist(const Candidate& candidate) { return !std::isnan(candidate.milliseconds); }
+
+std::string lines(const Choice& choice, double least,
+                  const std::function<bool(const Candidate&)>& wanted) {
     std::string text;
     for (const Candidate& candidate : choice.candidates)
-        if (candidate.rung >= from)
+        if (wanted(candidate))
             text += line(candidate, least);
     return text;
 }
@@ -149,8 +157,7 @@ Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& cho
         "set logscale x\nset xlabel {}\nset ylabel {}\nset key outside below\nset bmargin 7\nset "
         "grid lc rgb "
         "'#dddddd'\nset yrange [0:*]\nset xrange [{}:*]\n",
-        gnuplotText(fmt::format("milliseconds at a glance, {} x {} (logarithmic; free ones at the "
-                                "left edge)",
+        gnuplotText(fmt::format("milliseconds at {} x {} (logarithmic; free ones at the left edge)",
                                 study.sizes.front().width, study.sizes.front().height)),
         gnuplotText("RMSE of matched visibility"), least * 0.9);
     if (budget.rmse)
@@ -158,17 +165,23 @@ Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& cho
                                      "nohead dashtype 2 lc rgb '#D55E00'\nset label {1} at graph "
                                      "0.99, first {0} right offset 0, 0.6 tc rgb '#D55E00'\n",
                                      *budget.rmse, gnuplotText("budget"));
-    const std::string measured = lines(choice, least, Rung::held_out);
-    const std::string chosen = lines(choice, least, Rung::chosen);
+    const auto all = [](const Candidate&) { return true; };
+    const auto failed = [](const Candidate& candidate) {
+        return candidate.rung == Rung::held_out && !isFinalist(candidate);
+    };
+    const std::string chosen = lines(
+        choice, least, [](const Candidate& candidate) { return candidate.rung == Rung::chosen; });
     const Series series[] = {
         {"using 1:2 with steps lc rgb '#888888'", "Pareto front at a glance",
          glanceFront(choice, least)},
         {"using 1:2 with points pt 6 ps 0.8 lc rgb '#888888'", "at a glance: small, one view",
-         lines(choice, least, Rung::glance)},
+         lines(choice, least, all)},
         {"using 1:3:3:5 with yerrorbars pt 7 ps 1 lc rgb '#0072B2'",
-         "measured on held-out views, mean and 95 % bound", measured},
-        {"using 1:3 with points pt 7 ps 1.8 lc rgb '#009E73'", "chosen", chosen},
-        {"using 1:3:4 with labels left offset 1.2, 0", "", chosen}};
+         "RMSE on held-out views, mean and 95 % bound", lines(choice, least, failed)},
+        {"using 6:3:3:5 with yerrorbars pt 5 ps 1 lc rgb '#E69F00'",
+         "finalists: also time on held-out views", lines(choice, least, isFinalist)},
+        {"using 6:3 with points pt 7 ps 1.8 lc rgb '#009E73'", "chosen", chosen},
+        {"using 6:3:4 with labels left offset 1.2, 0", "", chosen}};
     figure.script += plotOf(series);
     return figure;
 }
@@ -180,8 +193,11 @@ std::string choiceText(const SweepStudy& study, const Budget& budget, const Choi
         "{} candidates, {} held-out views, {}; {:.0f} s besides references of held-out views\n",
         choice.candidates.size(), study.match.test.size(), limitsOf(budget), choice.seconds);
     const auto add = [&](const Candidate& candidate, const std::string& words) {
-        text += fmt::format("  {:<34} {:>8.3g} ms  {}\n", nameOf(candidate),
+        text += fmt::format("  {:<34} {:>8.3g} ms  {}", nameOf(candidate),
                             candidate.glanceMilliseconds, words);
+        text += isFinalist(candidate)
+                    ? fmt::format("; {:.3g} ms on held-out views\n", candidate.milliseconds)
+                    : "\n";
     };
     if (!choice.chosen) {
         text += "None meets the budget. Why, the cheapest at a glance first:\n";
