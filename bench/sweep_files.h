@@ -24,7 +24,8 @@ Sweep readSweep(const std::filesystem::path& folder);
 void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first,
                   const std::filesystem::path& folder);
 
-// "measured 30 of 180 rows; ..." of a sweep that was interrupted or lacks parts; "" of a whole one.
+// "30 of the study's 180 rows; ..." of a sweep that was interrupted or lacks parts; "" of a whole
+// one.
 std::string incompleteness(const Sweep& sweep);
 
 // Writes the parts of one study as one sweep, with their thumbnails, into a folder that has none.
