@@ -3,6 +3,7 @@
 #include "bench/figures.h"
 #include "bench/pareto.h"
 #include "protocols/csv.h"
+#include "protocols/error.h"
 #include "protocols/files.h"
 #include "renderer/settings.h"
 #include "report/gnuplot.h"
@@ -65,9 +66,12 @@ std::vector<const Candidate*> dearer(const Choice& choice) {
     return result;
 }
 
+constexpr std::string_view fragmentHead =
+    "# Written by obscura-bench choose; a protocol takes it by include = [\"choice.toml\"].\n";
+
 std::string fragment(const SweepStudy& study, const Budget& budget, const Candidate& candidate) {
-    std::string text = fmt::format(
-        "# Written by obscura-bench choose; a protocol takes it by include = [\"choice.toml\"].\n"
+    std::string text(fragmentHead);
+    text += fmt::format(
         "# The cheapest of {} candidates with {}\n# on views that it was not fitted on ({} x {}): "
         "RMSE {:.4f}, {:.3g} ms.\n[techniques.chosen] # {}\ntechnique = \"{}\"\n",
         study.match.techniques.size(), limitsOf(budget), study.sizes.front().width,
@@ -221,15 +225,28 @@ std::string choiceText(const SweepStudy& study, const Budget& budget, const Choi
     return text;
 }
 
+void requireOwnChoice(const std::filesystem::path& folder) {
+    const std::filesystem::path path = folder / "choice.toml";
+    if (!std::filesystem::exists(std::filesystem::symlink_status(path)))
+        return;
+    if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path)) ||
+        !readFile(path).starts_with(fragmentHead))
+        throw Error(
+            {path.string(), 0, 0, {}},
+            "expected a choice that obscura-bench choose wrote, which a new one replaces, or "
+            "nothing; found something else. Move it, or name another folder by --out");
+}
+
 void writeChoice(const std::filesystem::path& folder, const SweepStudy& study, const Budget& budget,
                  const Choice& choice) {
     writeFile(folder / "choice.csv", table(choice));
     writeFigures(folder, {figureOf(study, budget, choice)});
+    requireOwnChoice(folder);
     if (choice.chosen)
         writeFile(folder / "choice.toml",
                   fragment(study, budget, choice.candidates[*choice.chosen]));
     else
-        std::filesystem::remove(folder / "choice.toml"); // of an earlier budget
+        std::filesystem::remove(folder / "choice.toml"); // ours, of an earlier budget
 }
 
 } // namespace obscura

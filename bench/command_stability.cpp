@@ -1,9 +1,9 @@
 #include "bench/commands.h"
+#include "bench/machine.h"
 #include "bench/measured_view.h"
 #include "bench/stability.h"
 #include "bench/temporal_tests.h"
 #include "protocols/progress.h"
-#include "protocols/version.h"
 #include "renderer/gl/context.h"
 
 #include <fmt/format.h>
@@ -53,7 +53,7 @@ std::vector<std::string> asked(std::vector<std::string> all,
 // All that decides the numbers besides tests and configurations.
 std::string aboutOf(const Options& options, const gl::Driver& driver) {
     nlohmann::ordered_json about;
-    about["program"] = fmt::format("obscura {} ({})", version(), commit());
+    about["program"] = programName();
     about["renderer"] = driver.renderer;
     about["glVersion"] = driver.version;
     about["size"] =

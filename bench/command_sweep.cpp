@@ -204,6 +204,7 @@ int runChoose(const ChooseOptions& options) {
     const fs::path folder =
         options.study.out.empty() ? fs::path("choose-" + study.match.name) : options.study.out;
     Reporting reporting("choosing");
+    requireOwnChoice(folder);
     const Choice choice = choose(study, budget, folders, planOf(options.study, folder),
                                  context.driver(), reporting.progress());
     reporting.end();

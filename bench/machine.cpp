@@ -1,6 +1,9 @@
 #include "bench/machine.h"
 
+#include "protocols/files.h"
 #include "protocols/version.h"
+#include "renderer/code.h"
+#include "stimuli/match.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -47,6 +50,12 @@ std::string clocksOf(const gl::Driver& driver) {
 
 } // namespace
 
+std::string programName() {
+    const std::string code = sha256(
+        fmt::format("{} {} {} {}", imageCode(), referenceCode(), matchingCode(), measuringCode()));
+    return fmt::format("obscura {} ({}, code {:.12})", version(), commit(), code);
+}
+
 SweepMachine machineOf(const gl::Driver& driver, const gl::TimingChoice& timing,
                        const std::string& study) {
     SweepMachine machine;
@@ -58,7 +67,7 @@ SweepMachine machineOf(const gl::Driver& driver, const gl::TimingChoice& timing,
                                     std::thread::hardware_concurrency());
     machine.clocks = clocksOf(driver);
     machine.method = timing.reason;
-    machine.program = fmt::format("obscura {} ({})", version(), commit());
+    machine.program = programName();
     machine.study = study;
     machine.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::localtime(std::time(nullptr)));
     return machine;

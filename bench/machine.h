@@ -4,7 +4,17 @@
 #include "renderer/gl/context.h"
 #include "renderer/gl/timer.h"
 
+#include <string>
+#include <string_view>
+
 namespace obscura {
+
+// Version, commit and a hash of the code that measures, for a commit alone does not tell what was
+// edited since: "obscura 0.1.0 (abc123, code 0123abcd...)".
+std::string programName();
+
+// Hash of the benches' own code (code_hash.cmake).
+std::string_view measuringCode();
 
 // What times are times of: driver, processor, the GPU's clocks where nvidia-smi tells them, else
 // the processor's, program and date; `study` is the hash of the study's text.

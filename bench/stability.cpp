@@ -136,7 +136,7 @@ std::vector<StabilityCell> cellsInMotion(const Motion& motion,
 // What the folder has of other tests and configurations, measured alike.
 std::vector<StabilityCell> keptCells(const StabilityOptions& options) {
     const fs::path csv = options.folder / "stability.csv", json = options.folder / "stability.json";
-    if (!fs::exists(csv))
+    if (options.anew || !fs::exists(csv))
         return {};
     if (!fs::exists(json) || readFile(json) != options.about)
         throw Error({json.string(), 0, 0, {}},

@@ -30,7 +30,8 @@ struct StabilityOptions {
     std::vector<std::string> tests; // of still pictures, by id; those in motion have their own list
     std::optional<Motion> motion = {};
     std::string about =
-        "{}\n"; // stability.json: what else decides the numbers, such as the program
+        "{}\n";        // stability.json: what else decides the numbers, such as the program
+    bool anew = false; // whatever the folder's CSV holds is measured again, or left out
 };
 
 // All tests of still pictures, in the order of the page's columns; those in motion (temporal.h)
@@ -44,9 +45,9 @@ std::vector<std::string> screenTechniques();
 using StabilityProgress = std::function<void(double, const std::string&)>;
 
 // Runs the tests. What stands in the folder's CSV of other tests and configurations stays, if it
-// was measured with the same `about`; with another it is an Error. The CSV is written again after
-// each technique, so that finished ones are kept, and the page at the end. A context must be
-// current; an unknown test is an Error. Returns all that stands in the CSV.
+// was measured with the same `about`; with another it is an Error, unless all begins anew. The CSV
+// is written again after each technique, so that finished ones are kept, and the page at the end. A
+// context must be current; an unknown test is an Error. Returns all that stands in the CSV.
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress);
 

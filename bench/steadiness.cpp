@@ -49,7 +49,7 @@ std::string failuresOf(const Settings& matched, const std::vector<std::string>& 
     options.configurations = {configurationOf(matched)};
     options.folder = folder;
     options.tests = wanted;
-    std::filesystem::remove_all(folder); // of an earlier search
+    options.anew = true; // an earlier search may have had another program
     std::string text;
     for (const StabilityCell& cell : runStability(options, [](double, const std::string&) {}))
         for (const StabilityTest& test : tests)

@@ -54,7 +54,7 @@ AppendFile AppendFile::openLocked(const fs::path& path) {
 }
 
 AppendFile::AppendFile(fs::path path, int flags, std::string_view what) : path_(std::move(path)) {
-    fs::create_directories(path_.parent_path());
+    makeFolders(path_.parent_path());
     descriptor_ = ::open(path_.c_str(), flags | O_WRONLY | O_APPEND | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
         fail(what);

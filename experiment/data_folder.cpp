@@ -83,8 +83,8 @@ void DataFolder::prepare() const {
         writeFile(path, description(root_.filename().string(), title_));
     if (!fs::exists(root_ / "README.md"))
         writeFile(root_ / "README.md", readme(title_));
-    fs::create_directories(root_ / "data");
-    fs::create_directories(root_ / "sessions");
+    makeFolders(root_ / "data");
+    makeFolders(root_ / "sessions");
 }
 
 std::string DataFolder::stem(const SessionId& session) const {

@@ -1,6 +1,7 @@
 #include "protocols/files.h"
 
 #include "protocols/error.h"
+#include "protocols/process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -8,10 +9,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 namespace obscura {
@@ -48,23 +51,54 @@ void flushToDisk(const fs::path& path) {
         fail(path, "cannot be flushed to disk");
 }
 
-// Beside `path`, hidden.
+fs::path folderOf(const fs::path& path) {
+    return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+// ".obscura-unfinished.PROCESS.NUMBER": hidden, and beyond doubt ours and of whom. It does not hold
+// the target's name, which may be as long as a name can be.
+constexpr std::string_view unfinishedPrefix = ".obscura-unfinished.";
+
 fs::path unfinishedPath(const fs::path& path) {
-    if (path.has_parent_path())
-        fs::create_directories(path.parent_path());
-    fs::path unfinished = path;
-    unfinished.replace_filename(
-        fmt::format(".{}.{}{}", path.stem().string(), ::getpid(), path.extension().string()));
-    return unfinished;
+    static std::atomic<int> files = 0; // threads write at the same time
+    return folderOf(path) /
+           fmt::format("{}{}.{}", unfinishedPrefix, ProcessId::current().text(), ++files);
+}
+
+// Whose unfinished file has this name.
+std::optional<ProcessId> writerOf(std::string_view name) {
+    const std::size_t number = name.rfind('.') + 1;
+    if (!name.starts_with(unfinishedPrefix) || number <= unfinishedPrefix.size() ||
+        number == name.size() || name.find_first_not_of("0123456789", number) != name.npos)
+        return std::nullopt;
+    name.remove_suffix(name.size() - number + 1);
+    name.remove_prefix(unfinishedPrefix.size());
+    return ProcessId::parse(name);
 }
 
 void publish(const fs::path& unfinished, const fs::path& path) {
     flushToDisk(unfinished);
-    fs::rename(unfinished, path);
-    flushToDisk(path.has_parent_path() ? path.parent_path() : fs::path("."));
+    std::error_code failed;
+    fs::rename(unfinished, path, failed);
+    if (failed)
+        throw Error({path.string(), 0, 0, {}},
+                    fmt::format("cannot be replaced: {}", failed.message()));
+    flushToDisk(folderOf(path));
 }
 
 } // namespace
+
+void makeFolders(const fs::path& folder) {
+    if (folder.empty() || fs::is_directory(folder))
+        return;
+    makeFolders(folder.parent_path());
+    std::error_code failed;
+    fs::create_directory(folder, failed);
+    if (failed)
+        throw Error({folder.string(), 0, 0, {}},
+                    fmt::format("expected a folder, or room for one: {}", failed.message()));
+    flushToDisk(folderOf(folder));
+}
 
 std::string readFile(const fs::path& path) {
     if (fs::is_directory(path))
@@ -90,25 +124,30 @@ std::string plainName(std::string text) {
 }
 
 void removeUnfinishedFiles(const fs::path& folder) {
-    if (!fs::exists(folder))
+    if (!fs::is_directory(folder))
         return;
-    std::vector<fs::path> hidden;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        if (entry.is_regular_file() && entry.path().filename().string().starts_with('.'))
-            hidden.push_back(entry.path());
-    for (const fs::path& path : hidden)
-        fs::remove(path);
+    std::vector<fs::path> abandoned;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const auto writer = writerOf(entry.path().filename().string());
+        if (writer && fs::is_regular_file(entry.symlink_status()) && isGone(*writer))
+            abandoned.push_back(entry.path());
+    }
+    for (const fs::path& path : abandoned) {
+        std::error_code gone; // another run, tidying as well, was quicker
+        fs::remove(path, gone);
+    }
 }
 
 void writeFile(const fs::path& path, std::string_view content) {
+    makeFolders(path.parent_path());
     const fs::path unfinished = unfinishedPath(path);
+    // "x": never into what is there, be it a link.
+    File file = open(unfinished, "wbx", "cannot be written");
     try {
-        {
-            File file = open(unfinished, "wb", "cannot be written");
-            if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
-                std::fflush(file.get()) != 0)
-                fail(unfinished, "cannot be written to its end");
-        }
+        if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
+            std::fflush(file.get()) != 0)
+            fail(path, "cannot be written to its end");
+        file.reset();
         publish(unfinished, path);
     } catch (...) {
         std::error_code ignored;

@@ -12,15 +12,21 @@ namespace obscura {
 // The whole file; an Error naming the path and the system's reason when it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
+// A folder and what is missing above it, there still after a power cut.
+void makeFolders(const std::filesystem::path& folder);
+
 // Writes beside the target, flushes to disk, then renames: a reader sees the old file or the new
-// one, never half of one. Creates missing parent folders.
+// one, never half of one, also after a power cut. Creates missing parent folders.
 void writeFile(const std::filesystem::path& path, std::string_view content);
 
 // The text as a file name that every system and every page takes: what is no letter, digit, "-",
 // "_" or "." becomes "-".
 std::string plainName(std::string text);
 
-// What killed runs were writing in a folder when they died.
+// Removes from a folder, not from those within it, what writeFile() was writing when its process
+// was killed. Anything else stays: only a regular file of the very name that writeFile() makes up,
+// of a process that is gone beyond doubt, is removed. No other file of ours may be removed by a
+// pattern.
 void removeUnfinishedFiles(const std::filesystem::path& folder);
 
 // SHA-256 in parts. hex() ends it: 64 lower-case digits.

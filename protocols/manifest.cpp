@@ -5,13 +5,17 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <set>
+
 namespace obscura {
 
 namespace {
 
 using nlohmann::json;
 
-constexpr int schemaVersion = 1;
+// 2: recipes name the code that rendered.
+constexpr int newestVersion = 2;
 
 // Writing ------------------------------------------------------------------------------------
 
@@ -67,6 +71,7 @@ json toJson(const Recipe& recipe) {
             {"technique", recipe.technique},
             {"settings", recipe.settings},
             {"shaderSha256", recipe.shaderSha256},
+            {"codeSha256", recipe.codeSha256},
             {"programVersion", recipe.programVersion},
             {"gl",
              {{"vendor", recipe.glVendor},
@@ -122,12 +127,16 @@ class Node {
         return result;
     }
     std::vector<Node> items() const {
+        if (!value_->is_array())
+            throw Error({file_, 0, 0, path_}, "expected a list, found something else");
         std::vector<Node> result;
         for (std::size_t i = 0; i < value_->size(); ++i)
             result.emplace_back((*value_)[i], file_, fmt::format("{}[{}]", path_, i + 1));
         return result;
     }
     std::vector<std::pair<std::string, Node>> entries() const {
+        if (!value_->is_object())
+            throw Error({file_, 0, 0, path_}, "expected an object, found something else");
         std::vector<std::pair<std::string, Node>> result;
         for (const auto& [key, value] : value_->items())
             result.emplace_back(key, Node(value, file_, path_ + "." + key));
@@ -200,6 +209,8 @@ Recipe readRecipe(const Node& node) {
     node["technique"].read(recipe.technique);
     node["settings"].read(recipe.settings);
     node["shaderSha256"].read(recipe.shaderSha256);
+    if (node.has("codeSha256"))
+        node["codeSha256"].read(recipe.codeSha256);
     node["programVersion"].read(recipe.programVersion);
     node["gl"]["vendor"].read(recipe.glVendor);
     node["gl"]["renderer"].read(recipe.glRenderer);
@@ -240,6 +251,31 @@ PairRecord readPair(const Node& node) {
 std::string Recipe::json() const { return toJson(*this).dump(); }
 std::string Recipe::sha256() const { return obscura::sha256(json()); }
 
+std::vector<std::string> differences(const Recipe& recorded, const Recipe& now) {
+    const json before = toJson(recorded).flatten(), after = toJson(now).flatten();
+    std::set<std::string> keys;
+    for (const json& each : {before, after})
+        for (const auto& [key, value] : each.items())
+            keys.insert(key);
+    const auto spelt = [](const json& value) {
+        return value.is_null()     ? "none"
+               : value.is_number() ? fmt::format("{:g}", value.get<double>())
+                                   : value.dump();
+    };
+    std::vector<std::string> result;
+    for (const std::string& key : keys) {
+        const json was = before.value(key, json()), is = after.value(key, json());
+        if (was == is)
+            continue;
+        std::string name = key.substr(1); // a JSON pointer: "/settings/radius"
+        std::replace(name.begin(), name.end(), '/', '.');
+        const bool alike = spelt(was) == spelt(is); // they differ in a digit that is not printed
+        result.push_back(fmt::format("{}: {}, now {}", name, alike ? was.dump() : spelt(was),
+                                     alike ? is.dump() : spelt(is)));
+    }
+    return result;
+}
+
 Manifest readManifest(const std::filesystem::path& path) {
     const std::string file = path.string();
     json value;
@@ -249,12 +285,13 @@ Manifest readManifest(const std::filesystem::path& path) {
         throw Error({file, 0, 0, {}}, fmt::format("expected JSON: {}", error.what()));
     }
     const Node root(value, file, "");
-    if (const int version = root["schemaVersion"].as<int>(); version != schemaVersion)
-        throw Error({file, 0, 0, "schemaVersion"},
-                    fmt::format("expected {}, found {}; generate the stimuli again with "
-                                "obscura-stimuli",
-                                schemaVersion, version));
     Manifest manifest;
+    root["schemaVersion"].read(manifest.schemaVersion);
+    if (manifest.schemaVersion < 1 || manifest.schemaVersion > newestVersion)
+        throw Error({file, 0, 0, "schemaVersion"},
+                    fmt::format("expected 1 ... {}, found {}; generate the stimuli again with "
+                                "obscura-stimuli",
+                                newestVersion, manifest.schemaVersion));
     root["study"].read(manifest.study);
     root["title"].read(manifest.title);
     root["protocolSha256"].read(manifest.protocolSha256);
@@ -278,7 +315,7 @@ void writeManifest(const std::filesystem::path& path, const Manifest& manifest) 
                          {"radius", pair.radius},
                          {"a", toJson(pair.a)},
                          {"b", toJson(pair.b)}});
-    const json root = {{"schemaVersion", schemaVersion},
+    const json root = {{"schemaVersion", newestVersion},
                        {"study", manifest.study},
                        {"title", manifest.title},
                        {"protocolSha256", manifest.protocolSha256},

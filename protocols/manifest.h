@@ -10,18 +10,19 @@
 namespace obscura {
 
 // All that decides the pixels of one image: enough to render it again, byte for byte on the same
-// driver. Equal recipes give equal images.
+// driver. Equal recipes give equal images; what cannot be written out stands here as a hash.
 struct Recipe {
     int width = 0, height = 0, antialiasing = 1;
     std::uint64_t seed = 0;
     View view;
-    std::string sceneSha256; // of the scene's files; of its name and program version when built in
+    std::string sceneSha256; // of the scene's files; of all that it consists of when built in
     Level level;
     Normals normals = Normals::smooth;
     std::string environmentSha256;          // "" without an environment image
     std::string technique;                  // id in the technique table
     std::map<std::string, double> settings; // every parameter, defaults filled in, radius in metres
     std::string shaderSha256;               // of the text of every shader that made the image
+    std::string codeSha256; // of our C++ that renders (renderer/code.h); "" in manifests before 2
     std::string programVersion;
     std::string glVendor, glRenderer, glVersion;
 
@@ -60,10 +61,15 @@ struct Manifest {
     std::vector<PairRecord> pairs;
     FileRecord contactSheet;
 
+    int schemaVersion = 2;        // of the file that was read
     std::filesystem::path folder; // where it was read from; paths are relative to it
 };
 
+// What differs between two recipes, as "settings.radius: 0.3, now 0.4", by the keys of their JSON.
+std::vector<std::string> differences(const Recipe& recorded, const Recipe& now);
+
 // manifest.json of a stimulus folder. Reading checks every field and names the one that is amiss.
+// A file of an earlier version is read too; what it lacks is empty, and schemaVersion tells.
 Manifest readManifest(const std::filesystem::path& path);
 void writeManifest(const std::filesystem::path& path, const Manifest& manifest);
 

@@ -13,7 +13,11 @@ namespace obscura {
 // (a pair of figures whose base colour carries painted-in occlusion). Metres, y up.
 std::span<const std::string> builtinSceneNames();
 
-// An unknown name is an Error that gives the nearest.
+// An unknown name is an Error that gives the nearest. Its sha256 is contentSha256().
 Scene builtinScene(std::string_view name);
+
+// SHA-256 of all of a scene that decides pixels: whatever code made it, equal scenes have equal
+// hashes. Names of materials are no part of it.
+std::string contentSha256(const Scene& scene);
 
 } // namespace obscura

@@ -140,8 +140,7 @@ const std::vector<std::string>& integralNames() {
 }
 
 std::string rayTracerVersion() {
-    constexpr int revision = 1; // of this file and ray_packets.cpp, ray_scene.cpp
-    return fmt::format("{} Embree {}", revision, RTC_VERSION_STRING);
+    return fmt::format("Embree {}", RTC_VERSION_STRING); // ours has a hash (code.h)
 }
 
 struct RayTracer::Device {

@@ -2,7 +2,6 @@
 
 #include "protocols/error.h"
 #include "protocols/files.h"
-#include "protocols/version.h"
 
 #include <fmt/format.h>
 
@@ -66,7 +65,7 @@ std::string referenceKey(const ReferenceInputs& inputs) {
         inputs.sceneSha256, spelt(camera.position), spelt(camera.target), spelt(camera.up),
         camera.fovDegrees, camera.near, inputs.width, inputs.height, inputs.jitter.x,
         inputs.jitter.y, static_cast<int>(inputs.normals), static_cast<int>(settings.integral),
-        settings.radius, rays, settings.seed, settings.sameRays, version(), rayTracerVersion(),
+        settings.radius, rays, settings.seed, settings.sameRays, inputs.code, rayTracerVersion(),
         shaders());
     return sha256(text);
 }
@@ -100,6 +99,7 @@ Reference cachedReference(const fs::path& cache, const std::string& key,
         } catch (const Error&) { // a disk's fault, or another program's: the next line mends it
         }
     Reference reference = trace();
+    removeUnfinishedFiles(cache);
     writeReference(path, reference);
     return reference;
 }

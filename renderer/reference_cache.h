@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/code.h"
 #include "renderer/reference.h"
 
 #include <filesystem>
@@ -21,6 +22,7 @@ struct ReferenceInputs {
     glm::vec2 jitter{0, 0}; // of makeFrame
     Normals normals = Normals::smooth;
     TraceSettings settings;
+    std::string_view code = referenceCode();
 };
 std::string referenceKey(const ReferenceInputs& inputs); // SHA-256
 

@@ -17,11 +17,17 @@
 
 namespace obscura {
 
-Scene loadSceneOf(const View& view, const Folders& folders) {
-    return view.file.empty() ? builtinScene(view.builtin) : loadScene(folders.scenes / view.file);
-}
-
 namespace {
+
+// What is wrong with a file that a protocol names is told with the line that names it.
+template <typename Read>
+auto namedAt(const Place& place, Read read) {
+    try {
+        return read();
+    } catch (const std::exception& error) {
+        throw Error(place, error.what());
+    }
+}
 
 Settings settingsOf(const Recipe& recipe) {
     Settings settings(technique(recipe.technique));
@@ -86,11 +92,20 @@ class StageClock {
 
 } // namespace
 
+Scene loadSceneOf(const View& view, const Folders& folders) {
+    return namedAt(view.place, [&] {
+        return view.file.empty() ? builtinScene(view.builtin)
+                                 : loadScene(folders.scenes / view.file);
+    });
+}
+
 const std::string& SceneHashes::of(const View& view) {
-    std::string& hash = known_[view.file.empty() ? view.builtin : view.file];
+    std::string& hash = known_[view.builtin + "\n" + view.file];
     if (hash.empty())
-        hash = view.file.empty() ? builtinScene(view.builtin).sha256
-                                 : sceneSha256(folders_.scenes / view.file);
+        hash = namedAt(view.place, [&] {
+            return view.file.empty() ? builtinScene(view.builtin).sha256
+                                     : sceneSha256(folders_.scenes / view.file);
+        });
     return hash;
 }
 
@@ -116,7 +131,7 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
 }
 
 Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int member,
-                  SceneHashes& scenes, const gl::Driver& driver) {
+                  SceneHashes& scenes, const gl::Driver& driver, std::string_view code) {
     const View& view = protocol.view(condition.view);
     const Level& level = protocol.level(condition.level);
     const Settings settings = settingsOf(
@@ -129,16 +144,14 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
     recipe.normals = protocol.normals;
     recipe.view = view;
     recipe.level = level;
-    try {
-        recipe.sceneSha256 = scenes.of(view);
-        if (!level.environment.empty())
-            recipe.environmentSha256 = sha256File(scenes.folders().protocol / level.environment);
-    } catch (const Error& error) { // of the scene's file; the protocol's line helps to find it
-        throw Error(error.place().file.empty() ? view.place : Place{}, error.what());
-    }
+    recipe.sceneSha256 = scenes.of(view);
+    if (!level.environment.empty())
+        recipe.environmentSha256 = namedAt(
+            level.place, [&] { return sha256File(scenes.folders().protocol / level.environment); });
     recipe.technique = std::string(settings.technique().id);
     recipe.settings = settings.named();
     recipe.shaderSha256 = shaderSha256(settings, level);
+    recipe.codeSha256 = std::string(code);
     recipe.programVersion = std::string(version());
     recipe.glVendor = driver.vendor;
     recipe.glRenderer = driver.renderer;
@@ -185,7 +198,7 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
         stage_->scene.reset();
         load();
         warnings_ = scene->warnings;
-        stage_->scene.emplace(*scene);
+        namedAt(recipe.view.place, [&] { stage_->scene.emplace(*scene); });
         stage_->sceneSha256 = recipe.sceneSha256;
         stage_->lighting.clear();
     }
@@ -208,9 +221,19 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
             mustBe("the environment image", sha256File(environmentOf(recipe.level)),
                    recipe.environmentSha256);
         stage_->light.reset();
-        stage_->light.emplace(recipe.level, *stage_->scene, environmentOf(recipe.level));
+        namedAt(recipe.level.place, [&] {
+            stage_->light.emplace(recipe.level, *stage_->scene, environmentOf(recipe.level));
+        });
         stage_->lighting = key;
     }
+}
+
+void RecipeRenderer::check(const Recipe& recipe) {
+    prepare(recipe);
+    const Settings settings = settingsOf(recipe);
+    const int guard = guardPixels(settings, recipe.height);
+    const OcclusionPasses passes(settings, recipe.width + 2 * guard, recipe.height + 2 * guard);
+    gl::throwMessages();
 }
 
 Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {

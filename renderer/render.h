@@ -1,6 +1,7 @@
 #pragma once
 
 #include "protocols/manifest.h"
+#include "renderer/code.h"
 #include "renderer/gl/context.h"
 #include "renderer/image.h"
 #include "renderer/scene.h"
@@ -19,10 +20,12 @@ struct Folders {
     std::filesystem::path protocol; // environment images
 };
 
-// The view's scene, built in or from its file.
+// The view's scene, built in or from its file. What is wrong with it is told with the view's place
+// in the protocol.
 Scene loadSceneOf(const View& view, const Folders& folders);
 
-// The hashes of scenes, each looked up once: a study shows few scenes in many conditions.
+// The hashes of scenes, each looked up once: a study shows few scenes in many conditions. What is
+// wrong with one is told with the view's place.
 class SceneHashes {
   public:
     explicit SceneHashes(Folders folders) : folders_(std::move(folders)) {}
@@ -35,9 +38,10 @@ class SceneHashes {
 };
 
 // The recipe of one image: settings complete, and the hashes of scene, environment and shader
-// texts looked up. `driver` is the one that will render it.
+// texts looked up. `driver` is the one that will render it, `code` what does so.
 Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int member,
-                  SceneHashes& scenes, const gl::Driver& driver);
+                  SceneHashes& scenes, const gl::Driver& driver,
+                  std::string_view code = imageCode());
 
 // Hash of the text of every shader that makes an image with these settings.
 std::string shaderSha256(const Settings& settings, const Level& level);
@@ -68,6 +72,9 @@ class RecipeRenderer {
 
     // Scene and environment must have the recipe's hashes; an Error says which has changed.
     Rendering render(const Recipe& recipe, bool layers = false);
+
+    // All of it but drawing: loads scene and lighting onto the GPU, and compiles the shaders.
+    void check(const Recipe& recipe);
 
     const StageTimes& times() const { return times_; }
     const std::vector<std::string>& sceneWarnings() const { return warnings_; }

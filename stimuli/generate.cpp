@@ -6,10 +6,13 @@
 #include "stimuli/plan.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstring>
+#include <span>
 
 namespace obscura {
 
@@ -26,14 +29,21 @@ double seconds() {
         .count();
 }
 
-// The records of earlier runs by the hash of their recipe. A manifest that cannot be read proves
-// nothing, which only costs time.
-std::map<std::string, ImageRecord> earlierRecords(const fs::path& folder) {
+// The records of earlier runs by the image's file. A manifest that cannot be read proves nothing,
+// which only costs time.
+std::map<std::string, ImageRecord> earlierRecords(const fs::path& folder,
+                                                  std::vector<std::string>& warnings) {
     std::map<std::string, ImageRecord> records;
     for (const char* name : {manifestName, unfinishedName})
         if (fs::exists(folder / name))
             try {
-                for (const PairRecord& pair : readManifest(folder / name).pairs)
+                const Manifest manifest = readManifest(folder / name);
+                if (manifest.schemaVersion < Manifest{}.schemaVersion)
+                    warnings.push_back(fmt::format(
+                        "{} is of version {}, which does not name the code that rendered: its "
+                        "images are made anew",
+                        (folder / name).string(), manifest.schemaVersion));
+                for (const PairRecord& pair : manifest.pairs)
                     for (const ImageRecord& image : {pair.a, pair.b})
                         records[image.image.path] = image;
             } catch (const Error&) {
@@ -42,16 +52,32 @@ std::map<std::string, ImageRecord> earlierRecords(const fs::path& folder) {
 }
 
 bool intact(const fs::path& folder, const FileRecord& file) {
-    return fs::exists(folder / file.path) && sha256File(folder / file.path) == file.sha256;
+    return fs::is_regular_file(folder / file.path) && sha256File(folder / file.path) == file.sha256;
 }
 
 // Whether an earlier record proves that the image need not be rendered.
 bool proves(const ImageRecord& earlier, const Recipe& recipe, const fs::path& folder, bool layers) {
     if (earlier.recipe.sha256() != recipe.sha256() || !intact(folder, earlier.image) ||
-        (layers && !earlier.layers.contains("linear")))
+        !earlier.layers.contains("ao") || (layers && !earlier.layers.contains("linear")))
         return false;
     return std::all_of(earlier.layers.begin(), earlier.layers.end(),
                        [&](const auto& layer) { return intact(folder, layer.second); });
+}
+
+constexpr std::string_view makeAnew = "make the stimuli anew: obscura-stimuli without --verify";
+
+std::span<const std::string> channelNames(int count) {
+    static const std::array<std::string, 4> colours{"R", "G", "B", "A"};
+    static const std::array<std::string, 1> grey{"V"};
+    return count == 1
+               ? std::span<const std::string>(grey)
+               : std::span<const std::string>(colours).first(static_cast<std::size_t>(count));
+}
+
+// Also where a number is none.
+bool sameBits(const Image& a, const Image& b) {
+    return a.pixels.size() == b.pixels.size() &&
+           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
 }
 
 class ImageWriter {
@@ -63,19 +89,21 @@ class ImageWriter {
         return {name, sha256File(folder_ / name)};
     }
     FileRecord exr(const std::string& name, const Image& image) const {
-        static const std::array<std::string, 4> colours{"R", "G", "B", "A"};
-        static const std::array<std::string, 1> grey{"V"};
-        const auto channels = static_cast<std::size_t>(image.channels);
-        writeExr(folder_ / name, image,
-                 channels == 1 ? std::span<const std::string>(grey)
-                               : std::span<const std::string>(colours).first(channels),
-                 true);
+        writeExr(folder_ / name, image, channelNames(image.channels), true);
         return {name, sha256File(folder_ / name)};
     }
 
   private:
     fs::path folder_;
 };
+
+// What `layers` asks for, by kind.
+std::map<std::string, const Image*> exrsOf(const Rendering& rendering) {
+    std::map<std::string, const Image*> all{{"visibility", &rendering.visibility}};
+    for (const auto& [kind, image] : rendering.layers)
+        all[kind] = &image;
+    return all;
+}
 
 ImageRecord write(const Rendering& rendering, const std::string& file, const fs::path& folder,
                   bool layers) {
@@ -86,11 +114,9 @@ ImageRecord write(const Rendering& rendering, const std::string& file, const fs:
     record.meanOcclusion = rendering.meanOcclusion;
     record.image = writer.png(file, rendering.image);
     record.layers["ao"] = writer.png(stem + "_ao.png", quantised(rendering.visibility));
-    if (layers) {
-        record.layers["visibility"] = writer.exr(stem + "_visibility.exr", rendering.visibility);
-        for (const auto& [kind, image] : rendering.layers)
-            record.layers[kind] = writer.exr(fmt::format("{}_{}.exr", stem, kind), image);
-    }
+    if (layers)
+        for (const auto& [kind, image] : exrsOf(rendering))
+            record.layers[kind] = writer.exr(fmt::format("{}_{}.exr", stem, kind), *image);
     return record;
 }
 
@@ -141,19 +167,163 @@ Manifest finishedPart(Manifest manifest) {
     return manifest;
 }
 
+// Each image of a manifest in turn, with its condition and member.
+template <typename Visit>
+void eachImage(const Manifest& manifest, Visit visit) {
+    for (const PairRecord& pair : manifest.pairs)
+        for (const bool second : {false, true})
+            visit(pair, second ? pair.b : pair.a, second ? 1 : 0);
+}
+
+std::string nameOf(const PairRecord& pair, int member) {
+    return fmt::format("condition \"{}\", image {}", pair.condition, member == 0 ? "a" : "b");
+}
+
+// What another program or driver may leave as it is: the pixels decide.
+bool decidedByPixels(const std::string& difference) {
+    return difference.starts_with("codeSha256: ") || difference.starts_with("shaderSha256: ") ||
+           difference.starts_with("programVersion: ");
+}
+
+class Verification {
+  public:
+    Verification(const Protocol& protocol, const Manifest& manifest, const Folders& folders,
+                 const gl::Driver& driver)
+        : protocol_(protocol), manifest_(manifest), renderer_(folders), scenes_(folders),
+          driver_(driver) {}
+
+    void conditions() const;
+    void files() const;
+    void recipe(const PairRecord& pair, const ImageRecord& record, int member,
+                std::string_view code);
+    void rendering(const PairRecord& pair, const ImageRecord& record, int member);
+    int fromOtherCode() const { return fromOtherCode_; }
+
+  private:
+    const Condition& condition(const PairRecord& pair) const;
+    void file(const FileRecord& record) const;
+    void driver(const ImageRecord& record) const;
+    Place placeOf(const FileRecord& record) const {
+        return {(manifest_.folder / record.path).string(), 0, 0, {}};
+    }
+
+    const Protocol& protocol_;
+    const Manifest& manifest_;
+    RecipeRenderer renderer_;
+    SceneHashes scenes_;
+    const gl::Driver& driver_;
+    int fromOtherCode_ = 0;
+};
+
+const Condition& Verification::condition(const PairRecord& pair) const {
+    for (const Condition& each : protocol_.conditions)
+        if (each.id == pair.condition)
+            return each;
+    throw Error(fmt::format("{} has stimuli of the condition \"{}\", which the protocol lacks; {}",
+                            (manifest_.folder / manifestName).string(), pair.condition, makeAnew));
+}
+
+void Verification::conditions() const {
+    if (manifest_.study != protocol_.name)
+        throw Error(fmt::format("{} is of the study \"{}\", the protocol of \"{}\"; {}",
+                                (manifest_.folder / manifestName).string(), manifest_.study,
+                                protocol_.name, makeAnew));
+    for (const Condition& each : protocol_.conditions)
+        if (std::none_of(manifest_.pairs.begin(), manifest_.pairs.end(),
+                         [&](const PairRecord& pair) { return pair.condition == each.id; }))
+            throw Error(each.place,
+                        fmt::format("condition \"{}\" has no stimuli; {}", each.id, makeAnew));
+}
+
+void Verification::file(const FileRecord& record) const {
+    if (!fs::exists(manifest_.folder / record.path))
+        throw Error(placeOf(record), fmt::format("is missing; {}", makeAnew));
+    if (!intact(manifest_.folder, record))
+        throw Error(placeOf(record),
+                    fmt::format("has changed since it was made: its SHA-256 is not "
+                                "the manifest's; {}",
+                                makeAnew));
+}
+
+void Verification::files() const {
+    eachImage(manifest_, [&](const PairRecord&, const ImageRecord& record, int) {
+        file(record.image);
+        for (const auto& [kind, layer] : record.layers)
+            file(layer);
+    });
+    file(manifest_.contactSheet);
+}
+
+void Verification::driver(const ImageRecord& record) const {
+    if (record.recipe.glRenderer != driver_.renderer || record.recipe.glVersion != driver_.version)
+        throw Error(placeOf(record.image),
+                    fmt::format("was made with {} ({}), this is {} ({}): bytes repeat only on the "
+                                "same driver",
+                                record.recipe.glRenderer, record.recipe.glVersion, driver_.renderer,
+                                driver_.version));
+}
+
+void Verification::recipe(const PairRecord& pair, const ImageRecord& record, int member,
+                          std::string_view code) {
+    driver(record);
+    const Condition& today = condition(pair);
+    std::vector<std::string> found =
+        differences(record.recipe, makeRecipe(protocol_, today, member, scenes_, driver_, code));
+    const auto other = std::stable_partition(
+        found.begin(), found.end(), [](const std::string& each) { return !decidedByPixels(each); });
+    fromOtherCode_ += other != found.end();
+    found.erase(other, found.end());
+    if (!found.empty())
+        throw Error(today.place,
+                    fmt::format("{} ({}) was made by another recipe than the protocol gives now: "
+                                "{}; {}",
+                                nameOf(pair, member), record.image.path, fmt::join(found, "; "),
+                                makeAnew));
+}
+
+void Verification::rendering(const PairRecord& pair, const ImageRecord& record, int member) {
+    const bool exrs = record.layers.contains("linear");
+    const Rendering now = renderer_.render(record.recipe, exrs);
+    const auto mustBe = [&](const FileRecord& file, bool same) {
+        if (!same)
+            throw Error(placeOf(file),
+                        fmt::format("{}: its recipe now gives other pixels, so what renders has "
+                                    "changed; {}",
+                                    nameOf(pair, member), makeAnew));
+    };
+    const auto png = [&](const FileRecord& file, const Image8& image) {
+        mustBe(file,
+               readImage8(manifest_.folder / file.path, image.channels).pixels == image.pixels);
+    };
+    png(record.image, now.image);
+    const auto images = exrsOf(now);
+    for (const auto& [kind, file] : record.layers)
+        if (kind == "ao")
+            png(file, quantised(now.visibility));
+        else if (const auto image = images.find(kind); image == images.end())
+            mustBe(file, false);
+        else
+            mustBe(file, sameBits(readExr(manifest_.folder / file.path,
+                                          channelNames(image->second->channels)),
+                                  *image->second));
+    mustBe(record.image, now.inputsSha256 == record.inputsSha256);
+    checkMatched(pair, condition(pair).place);
+}
+
 } // namespace
 
 GenerateResult generate(const Protocol& protocol, const Folders& folders, const fs::path& folder,
-                        bool layers, const gl::Driver& driver, const Announce& announce) {
+                        bool layers, const gl::Driver& driver, const Announce& announce,
+                        std::string_view code) {
     const std::vector<PlannedImage> images = plan(protocol);
     SceneHashes scenes(folders);
     std::vector<Recipe> recipes; // all first: a mistake shows before the first image, not after
     for (const PlannedImage& image : images)
         recipes.push_back(makeRecipe(protocol, protocol.conditions[image.condition], image.member,
-                                     scenes, driver));
+                                     scenes, driver, code));
     removeUnfinishedFiles(folder);
-    const auto earlier = earlierRecords(folder);
     GenerateResult result;
+    const auto earlier = earlierRecords(folder, result.warnings);
     result.manifest = emptyManifest(protocol);
     result.manifest.folder = folder;
     for (const Condition& condition : protocol.conditions)
@@ -171,10 +341,12 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
             record = known->second;
             ++result.kept;
         } else {
-            const Rendering rendering = renderer.render(recipes[i], layers);
+            const bool exrs =
+                layers || (known != earlier.end() && known->second.layers.contains("linear"));
+            const Rendering rendering = renderer.render(recipes[i], exrs);
             addWarnings(result.warnings, condition.view, renderer.sceneWarnings());
             const double start = seconds();
-            record = write(rendering, image.file, folder, layers);
+            record = write(rendering, image.file, folder, exrs);
             result.writing += seconds() - start;
             ++result.rendered;
         }
@@ -196,30 +368,33 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     return result;
 }
 
-void verify(const Manifest& manifest, const Folders& folders, const gl::Driver& driver,
-            const Announce& announce) {
+void check(const Protocol& protocol, const Folders& folders, const gl::Driver& driver,
+           const Announce& announce) {
+    SceneHashes scenes(folders);
     RecipeRenderer renderer(folders);
+    const std::vector<PlannedImage> images = plan(protocol);
+    for (std::size_t i = 0; i < images.size(); ++i) {
+        announce(static_cast<int>(i), static_cast<int>(images.size()), images[i].file);
+        renderer.check(makeRecipe(protocol, protocol.conditions[images[i].condition],
+                                  images[i].member, scenes, driver));
+    }
+}
+
+int verify(const Protocol& protocol, const Manifest& manifest, const Folders& folders,
+           const gl::Driver& driver, const Announce& announce, std::string_view code) {
+    Verification verification(protocol, manifest, folders, driver);
+    verification.conditions();
+    eachImage(manifest, [&](const PairRecord& pair, const ImageRecord& record, int member) {
+        verification.recipe(pair, record, member, code);
+    });
+    verification.files();
     const int total = static_cast<int>(manifest.pairs.size()) * 2;
     int done = 0;
-    for (const PairRecord& pair : manifest.pairs)
-        for (const ImageRecord& record : {pair.a, pair.b}) {
-            announce(done++, total, record.image.path);
-            const Place place{(manifest.folder / record.image.path).string(), 0, 0, {}};
-            if (!intact(manifest.folder, record.image))
-                throw Error(place, "does not have the hash that the manifest records; generate the "
-                                   "stimuli again");
-            if (record.recipe.glRenderer != driver.renderer ||
-                record.recipe.glVersion != driver.version)
-                throw Error(place,
-                            fmt::format("was made with {} ({}), this is {} ({}): bytes repeat only "
-                                        "on the same driver",
-                                        record.recipe.glRenderer, record.recipe.glVersion,
-                                        driver.renderer, driver.version));
-            const Rendering rendering = renderer.render(record.recipe);
-            if (rendering.image.pixels != readImage8(manifest.folder / record.image.path, 3).pixels)
-                throw Error(place, "its recipe now gives other pixels: the program has changed; "
-                                   "generate the stimuli again");
-        }
+    eachImage(manifest, [&](const PairRecord& pair, const ImageRecord& record, int member) {
+        announce(done++, total, record.image.path);
+        verification.rendering(pair, record, member);
+    });
+    return verification.fromOtherCode();
 }
 
 } // namespace obscura

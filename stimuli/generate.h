@@ -12,9 +12,11 @@ namespace obscura {
 
 struct GenerateResult {
     Manifest manifest;
-    int rendered = 0, kept = 0;        // images
-    StageTimes times;                  // of those rendered
-    std::vector<std::string> warnings; // what the scenes that were loaded use and we do not show
+    int rendered = 0, kept = 0; // images
+    StageTimes times;           // of those rendered
+    // What the scenes that were loaded use and we do not show; and what an earlier run's manifest
+    // lacks, for which its images are made anew.
+    std::vector<std::string> warnings;
     double writing = 0; // seconds: encoding and flushing files, and the contact sheet
 };
 
@@ -24,15 +26,24 @@ using Announce = std::function<void(int done, int total, const std::string& file
 // Carries out a protocol's plan into `folder`: a PNG per image and one of its visibility,
 // with `layers` also linear EXRs ("linear", "visibility", "albedo", "depth", "normal"); then
 // contact-sheet.png; last manifest.json. An image is kept when the manifest of an earlier run, also
-// of an interrupted one, proves that the same recipe made the very bytes on disk. The members of a
-// pair must have equal inputs before occlusion, or nothing is published: an Error.
+// of an interrupted one, proves that the same recipe made the very bytes on disk, those of its
+// layers included; what has EXRs keeps them, also when it is made anew. The members of a pair must
+// have equal inputs before occlusion, or nothing is published: an Error. `code` is what renders.
 GenerateResult generate(const Protocol& protocol, const Folders& folders,
                         const std::filesystem::path& folder, bool layers, const gl::Driver& driver,
-                        const Announce& announce);
+                        const Announce& announce, std::string_view code = imageCode());
 
-// Renders every image of a manifest again from its recipe alone and compares the bytes. The first
-// that differs, or whose file does not have the recorded hash, is an Error.
-void verify(const Manifest& manifest, const Folders& folders, const gl::Driver& driver,
-            const Announce& announce);
+// All that generate() meets before it draws: loads every scene and environment image onto the GPU,
+// and compiles the shaders. What is wrong is an Error with the protocol's line.
+void check(const Protocol& protocol, const Folders& folders, const gl::Driver& driver,
+           const Announce& announce);
+
+// Whether the folder holds what the protocol asks for, byte for byte. First that each condition was
+// made by the recipe that the protocol gives today, and that each file (images, layers, contact
+// sheet) has the recorded hash; then every image is rendered again and compared, with its layers.
+// The first thing that differs is an Error that says what, and generate() mends it. Returns the
+// number of images that other code made, and that come out the same.
+int verify(const Protocol& protocol, const Manifest& manifest, const Folders& folders,
+           const gl::Driver& driver, const Announce& announce, std::string_view code = imageCode());
 
 } // namespace obscura

@@ -114,9 +114,12 @@ int run(int argc, char** argv) {
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
     app.add_option("--device", device, "render with this device of obscura-render --devices");
     app.add_flag("--layers", layers, "write linear EXR of image, visibility and G-buffer as well");
-    app.add_flag("--check", check, "check the protocol, render nothing");
-    app.add_flag("--verify", verifyOnly,
-                 "render every image of the folder again and compare the bytes, write nothing");
+    app.add_flag("--check", check,
+                 "check the protocol, and load all that it names; render nothing");
+    app.add_flag(
+        "--verify", verifyOnly,
+        "compare the folder with the protocol, its files with their hashes, and every image "
+        "with what is rendered again; write nothing");
     app.callback([&] {
         if (!matching->parsed() && protocolPath.empty())
             throw CLI::RequiredError("protocol");
@@ -132,18 +135,19 @@ int run(int argc, char** argv) {
     const gl::Context context(device);
     std::optional<Progress> progress;
     if (check) {
-        SceneHashes scenes(folders);
-        for (const Condition& condition : protocol.conditions)
-            for (int member : {0, 1})
-                makeRecipe(protocol, condition, member, scenes, context.driver());
+        obscura::check(protocol, folders, context.driver(), announcing(progress, "checking"));
+        progress.reset();
         fmt::print("{}: {} conditions, all well\n", protocolPath.string(),
                    protocol.conditions.size());
     } else if (verifyOnly) {
         const Manifest manifest = readManifest(out / "manifest.json");
-        verify(manifest, folders, context.driver(), announcing(progress, "verifying"));
+        const int others = verify(protocol, manifest, folders, context.driver(),
+                                  announcing(progress, "verifying"));
         progress.reset();
         fmt::print("{}: all {} images repeat byte for byte\n", out.string(),
                    manifest.pairs.size() * 2);
+        if (others > 0)
+            fmt::print("{} of them were made by other code, and come out the same\n", others);
     } else {
         const GenerateResult result = generate(protocol, folders, out, layers, context.driver(),
                                                announcing(progress, "rendering stimuli"));

@@ -204,12 +204,7 @@ void Matching::plan() {
     for (const bool train : {true, false})
         for (const View& view : train ? study_.train : study_.test) {
             cases_.push_back({view, train, nullptr, {}});
-            try {
-                result_.sceneSha256[view.file.empty() ? view.builtin : view.file] =
-                    hashes_.of(view);
-            } catch (const Error& error) {
-                throw Error(error.place().file.empty() ? view.place : Place{}, error.what());
-            }
+            result_.sceneSha256[view.file.empty() ? view.builtin : view.file] = hashes_.of(view);
             effort_.plan(static_cast<double>(truthsOf(study_, train).size()) *
                          truthCost(size(cases_.back()), study_.rays));
         }
@@ -297,6 +292,7 @@ std::string Matching::keyOf(const TechniqueSetting& setting) {
             recipe.technique = std::string(settings.technique().id);
             recipe.settings = settings.named();
             recipe.shaderSha256 = shaderSha256(settings, level);
+            recipe.codeSha256 = std::string(imageCode());
             recipe.programVersion = std::string(version());
             recipe.glVendor = driver_.vendor;
             recipe.glRenderer = driver_.renderer;
@@ -306,7 +302,8 @@ std::string Matching::keyOf(const TechniqueSetting& setting) {
         for (const Setting& given : each.settings) // what is given is not fitted
             hash.add(given.name + "\n");
     };
-    hash.add(fmt::format("match 1\n{} {} {}\n", setting.name, study_.rays, rayTracerVersion()));
+    hash.add(fmt::format("match 2\n{} {} {} {} {}\n", setting.name, study_.rays, rayTracerVersion(),
+                         referenceCode(), matchingCode()));
     for (const bool train : {true, false})
         for (const Truth truth : truthsOf(study_, train))
             hash.add(nameOf(truth) + "\n");

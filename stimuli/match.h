@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -50,5 +51,8 @@ using MatchProgress = std::function<void(double done, double total, const std::s
 MatchResult match(const MatchStudy& study, const Folders& folders,
                   const std::filesystem::path& folder, const std::filesystem::path& cache,
                   const gl::Driver& driver, const MatchProgress& progress);
+
+// Hash of our code that fits and measures (code_hash.cmake); what it renders with has its own.
+std::string_view matchingCode();
 
 } // namespace obscura

@@ -2,6 +2,7 @@
 #include "bench/failure_test.h"
 #include "bench/stability.h"
 #include "protocols/error.h"
+#include "tests/foreign_files.h"
 #include "tests/renderer/occlusion_fixture.h"
 
 #include <set>
@@ -96,6 +97,7 @@ TEST_F(FailureTests, AFolderKeepsOtherTestsAndIsOfOneProgram) {
     options.folder = std::filesystem::path(testing::TempDir()) / "kept";
     options.size = size;
     std::filesystem::remove_all(options.folder);
+    const test::ForeignFiles foreign(options.folder);
     const auto run = [&](const char* test) {
         options.tests = {test};
         return runStability(options, [](double, const std::string&) {});
@@ -108,6 +110,9 @@ TEST_F(FailureTests, AFolderKeepsOtherTestsAndIsOfOneProgram) {
     EXPECT_THROW(run("dance"), Error);
     options.about = "{\"program\": \"another\"}";
     EXPECT_THROW(run("plane"), Error);
+    options.anew = true; // as a choice begins, which asks of one program only
+    EXPECT_EQ(run("plane").size(), first);
+    EXPECT_EQ(foreign.lost(), "");
 }
 
 TEST_F(FailureTests, TestsAreTold) {

@@ -8,6 +8,7 @@
 #include "renderer/builtin.h"
 #include "renderer/gl/context.h"
 #include "tests/error_of.h"
+#include "tests/foreign_files.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -48,7 +49,15 @@ gtao = { technique = "gtao", preset = "ultra" }
 
 class SweepTest : public testing::Test {
   protected:
-    SweepTest() { fs::remove_all(folder_); }
+    SweepTest() {
+        fs::remove_all(folder_);
+        for (const char* folder : {"", "1", "2", "whole", "choice"})
+            foreign_.emplace_back(folder_ / folder);
+    }
+    void TearDown() override { // whatever was done
+        for (const test::ForeignFiles& foreign : foreign_)
+            EXPECT_EQ(foreign.lost(), "");
+    }
     ~SweepTest() override { fs::remove_all(folder_); }
 
     Sweep run(const std::string& part) {
@@ -66,6 +75,7 @@ class SweepTest : public testing::Test {
     const gl::Context context_;
     const SweepStudy study_ = parseSweepStudy(text, "small.toml");
     int reports_ = 0;
+    std::vector<test::ForeignFiles> foreign_;
 };
 
 const SweepRow& rowOf(const Sweep& sweep, const std::string& configuration) {

@@ -77,6 +77,7 @@ TEST(ManifestTest, EveryPartOfARecipeChangesItsHash) {
         {"technique", [](Recipe& r) { r.technique = "x"; }},
         {"settings", [](Recipe& r) { r.settings["radius"] = 1; }},
         {"shaders", [](Recipe& r) { r.shaderSha256 = "x"; }},
+        {"code", [](Recipe& r) { r.codeSha256 = "x"; }},
         {"program", [](Recipe& r) { r.programVersion = "x"; }},
         {"driver", [](Recipe& r) { r.glVersion = "x"; }},
     };
@@ -84,6 +85,7 @@ TEST(ManifestTest, EveryPartOfARecipeChangesItsHash) {
         Recipe changed = base;
         change(changed);
         EXPECT_NE(changed.sha256(), base.sha256()) << name;
+        EXPECT_EQ(differences(base, changed).size(), 1u) << name;
     }
     EXPECT_EQ(Recipe(base).sha256(), base.sha256());
 }
@@ -102,13 +104,51 @@ TEST(ManifestTest, AMissingFieldIsNamed) {
     }
 }
 
+TEST(ManifestTest, DifferencesAreSpelt) {
+    const Recipe recorded = sample().pairs[0].b.recipe;
+    Recipe now = recorded;
+    now.settings["radius"] = 0.3;
+    now.settings.erase("samples");
+    now.view.camera.target[2] = 1;
+    now.view.camera.fovDegrees += 1e-9;
+    EXPECT_THAT(differences(recorded, now),
+                testing::ElementsAre("settings.radius: 0.2, now 0.3",
+                                     "settings.samples: 24, now none",
+                                     "view.camera.fovDegrees: 50.0, now 50.000000001",
+                                     "view.camera.target.2: 0, now 1"));
+    EXPECT_THAT(differences(now, now), testing::IsEmpty());
+}
+
+TEST(ManifestTest, AnEarlierVersionIsRead) {
+    writeManifest(file(), sample());
+    std::string text = readFile(file());
+    text.replace(text.find("\"schemaVersion\": 2"), 18, "\"schemaVersion\": 1");
+    for (std::size_t at; (at = text.find("\"codeSha256\"")) != text.npos;)
+        text.erase(at, text.find('\n', at) - at);
+    writeFile(file(), text);
+    const Manifest manifest = readManifest(file());
+    EXPECT_EQ(manifest.schemaVersion, 1);
+    EXPECT_EQ(manifest.pairs[0].a.recipe.codeSha256, "");
+    EXPECT_EQ(manifest.pairs[0].a.recipe.technique, "none");
+}
+
+TEST(ManifestTest, AListMustBeOne) {
+    writeManifest(file(), sample());
+    const std::string text = readFile(file());
+    for (const char* wrong : {"{}", "3", "null", "\"pairs\""}) {
+        const std::size_t at = text.find("\"pairs\": ") + 9;
+        writeFile(file(), text.substr(0, at) + wrong + "}");
+        EXPECT_THROW(readManifest(file()), Error) << wrong;
+    }
+}
+
 TEST(ManifestTest, AnotherVersionIsRefused) {
     writeFile(file(), R"({"schemaVersion": 99})");
     try {
         readManifest(file());
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("schemaVersion: expected 1, found 99"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("schemaVersion: expected 1 ... 2, found 99"));
     }
 }
 

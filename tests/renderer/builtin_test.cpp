@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
+#include <set>
+#include <string>
 
 namespace obscura {
 namespace {
@@ -188,6 +191,49 @@ TEST(BuiltinNames, UnknownNameIsAnErrorThatGivesTheNearest) {
         EXPECT_THAT(error.what(), HasSubstr("no built-in scene \"atriun\""));
         EXPECT_THAT(error.what(), HasSubstr("atrium"));
     }
+}
+
+// Every member of a scene that decides a pixel decides its hash.
+TEST(ContentHash, DiffersWithEverything) {
+    Scene base;
+    base.vertices.resize(3);
+    base.indices = {0, 1, 2};
+    base.meshes = {{0, 3, 0}};
+    base.materials = {{.name = "clay"}};
+    base.textures.resize(1);
+    base.textures[0].image = {1, 1, 4, {1, 2, 3, 4}};
+    std::set<std::string> hashes{contentSha256(base)};
+    std::size_t changes = 1;
+    const auto change = [&](const std::function<void(Scene&)>& by) {
+        Scene changed = base;
+        by(changed);
+        hashes.insert(contentSha256(changed));
+        EXPECT_EQ(hashes.size(), ++changes);
+    };
+    change([](Scene& s) { s.vertices[2].position.x += 1e-6F; });
+    change([](Scene& s) { s.vertices[1].normal.y = 1; });
+    change([](Scene& s) { s.vertices[1].tangent.w = -1; });
+    change([](Scene& s) { s.vertices[0].uv.y = 1; });
+    change([](Scene& s) { s.indices[2] = 1; });
+    change([](Scene& s) { s.meshes[0].material = 1; });
+    change([](Scene& s) { s.meshes[0].indexCount = 0; });
+    change([](Scene& s) { s.meshes[0].firstIndex = 3; });
+    change([](Scene& s) { s.materials[0].baseColour.b = 0.5F; });
+    change([](Scene& s) { s.materials[0].baseColourTexture = 0; });
+    change([](Scene& s) { s.materials[0].normalTexture = 0; });
+    change([](Scene& s) { s.materials[0].normalScale = 2; });
+    change([](Scene& s) { s.materials[0].metallicRoughnessTexture = 0; });
+    change([](Scene& s) { s.materials[0].metallic = 1; });
+    change([](Scene& s) { s.materials[0].roughness = 0; });
+    change([](Scene& s) { s.materials[0].alphaCutoff = 0.5F; });
+    change([](Scene& s) { s.materials[0].doubleSided = true; });
+    change([](Scene& s) { s.textures[0].srgb = true; });
+    change([](Scene& s) { s.textures[0].repeatU = false; });
+    change([](Scene& s) { s.textures[0].repeatV = false; });
+    change([](Scene& s) { s.textures[0].image.pixels[0] = 9; });
+    change([](Scene& s) { s.textures[0].image.width = 2; });
+    base.materials[0].name = "mud"; // shows nowhere
+    EXPECT_TRUE(hashes.contains(contentSha256(base)));
 }
 
 } // namespace

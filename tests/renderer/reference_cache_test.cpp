@@ -98,10 +98,11 @@ TEST_F(ReferenceCache, KeysDifferWithEverything) {
     key([](ReferenceInputs& i) { i.settings.rays *= 2; });
     key([](ReferenceInputs& i) { i.settings.seed += 1; });
     key([](ReferenceInputs& i) { i.settings.sameRays = true; });
-    EXPECT_EQ(keys.size(), 16);
+    key([](ReferenceInputs& i) { i.code = "other"; });
+    EXPECT_EQ(keys.size(), 17);
     key([](ReferenceInputs& i) { i.settings.threads = 1; });
     key([](ReferenceInputs& i) { i.settings.rays -= 1; }); // rounded up
-    EXPECT_EQ(keys.size(), 16);
+    EXPECT_EQ(keys.size(), 17);
 }
 
 } // namespace

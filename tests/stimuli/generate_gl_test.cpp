@@ -3,6 +3,8 @@
 #include "renderer/light.h"
 #include "stimuli/generate.h"
 #include "stimuli/plan.h"
+#include "tests/error_of.h"
+#include "tests/foreign_files.h"
 #include "tests/renderer/small_gltf.h"
 
 #include <gmock/gmock.h>
@@ -83,9 +85,25 @@ class Generate : public testing::Test {
         writeFile(root_ / "scenes" / "t.gltf", triangleGltf("", R"(,"doubleSided":true)"));
     }
     GenerateResult run(const std::string& text = protocolText(), const std::string& folder = "out",
-                       bool layers = false, const Announce& announce = quiet) {
+                       bool layers = false, const Announce& announce = quiet,
+                       std::string_view code = imageCode()) {
         return generate(parseProtocol(text, "tiny.toml"), folders(), root_ / folder, layers,
-                        context_->driver(), announce);
+                        context_->driver(), announce, code);
+    }
+    int verified(const std::string& text = protocolText(), std::string_view code = imageCode()) {
+        return verify(parseProtocol(text, "tiny.toml"),
+                      readManifest(root_ / "out" / "manifest.json"), folders(), context_->driver(),
+                      quiet, code);
+    }
+    // What is wrong with the folder out, and that making it anew mends that.
+    std::string faultMendedBy(const std::string& text = protocolText()) {
+        const std::string fault = test::errorOf([&] { verified(text); });
+        run(text);
+        EXPECT_NO_THROW(verified(text)) << "after: " << fault;
+        return fault;
+    }
+    void checked(const std::string& text) {
+        check(parseProtocol(text, "tiny.toml"), folders(), context_->driver(), quiet);
     }
     Folders folders() const { return {root_ / "scenes", root_}; }
 
@@ -195,9 +213,9 @@ TEST_F(Generate, AnInterruptedRunLeavesNothingHalfDone) {
     EXPECT_FALSE(fs::exists(root_ / "out" / "manifest.json"));
     for (const auto& [name, content] : contentsOf(root_ / "out"))
         EXPECT_NE(name.front(), '.') << "an unfinished file was left: " << name;
-    writeFile(root_ / "out" / ".first_a_crytek.123.png", "what a killed run leaves");
+    const fs::path abandoned = test::abandonedFile(root_ / "out");
     const GenerateResult rest = run();
-    EXPECT_FALSE(fs::exists(root_ / "out" / ".first_a_crytek.123.png"));
+    EXPECT_FALSE(fs::exists(abandoned));
     EXPECT_EQ(rest.kept, 2); // the finished pair
     EXPECT_EQ(rest.rendered, 2);
 }
@@ -217,24 +235,203 @@ TEST_F(Generate, APairThatIsNotMatchedIsRefused) {
     }
 }
 
-TEST_F(Generate, EveryImageCanBeMadeAgainFromItsRecipeAlone) {
-    run();
-    const Manifest manifest = readManifest(root_ / "out" / "manifest.json");
-    EXPECT_NO_THROW(verify(manifest, folders(), context_->driver(), quiet));
-    writeFile(root_ / "out" / manifest.pairs[1].b.image.path, "touched");
-    EXPECT_THROW(verify(manifest, folders(), context_->driver(), quiet), Error);
+// Equal recipes give equal images: what renders is part of them.
+TEST_F(Generate, RendersAgainWhenTheRenderingCodeChanges) {
+    const GenerateResult first = run();
+    EXPECT_EQ(first.manifest.pairs[0].a.recipe.codeSha256, imageCode());
+    EXPECT_EQ(run(protocolText(), "out", false, quiet, "edited").rendered, 4);
+    EXPECT_EQ(run(protocolText(), "out", false, quiet, "edited").rendered, 0);
+    EXPECT_EQ(verified(protocolText(), "edited"), 0);
+    EXPECT_EQ(verified(), 4); // of other code, and the same all the same
 }
 
-TEST_F(Generate, VerifyingNoticesAnotherRecipe) {
+// Two scenes, of which one has a texture.
+TEST_F(Generate, AChangedTextureConcernsItsSceneAlone) {
+    const auto texture = [&](std::uint8_t red) {
+        writePng(root_ / "scenes" / "x.png", {1, 1, 3, {red, 90, 90}});
+    };
+    texture(200);
+    writeFile(root_ / "scenes" / "textured.gltf",
+              triangleGltf("", R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}})",
+                           R"(,"textures":[{"source":0}],"images":[{"uri":"x.png"}])"));
+    std::string text = protocolText();
+    text.replace(text.find("[levels.low]"), 0, R"([scenes.textured]
+file = "textured.gltf"
+radius = 0.3
+camera = { position = [0.4, 0.5, 1.5], target = [0.3, 0.3, 0], fovDegrees = 50 }
+)");
+    text.replace(text.rfind("scene = \"triangle\""), 18, "scene = \"textured\"");
+    const auto before = run(text).manifest;
+    texture(90);
+    EXPECT_THAT(test::errorOf([&] { verified(text); }),
+                testing::HasSubstr("condition \"second\", image a (second_a_none.png) was made by "
+                                   "another recipe than the protocol gives now: sceneSha256: "));
+    const GenerateResult after = run(text);
+    EXPECT_EQ(after.rendered, 2);
+    EXPECT_EQ(after.kept, 2);
+    EXPECT_NE(after.manifest.pairs[1].a.image.sha256, before.pairs[1].a.image.sha256);
+    verified(text);
+}
+
+TEST_F(Generate, AManifestWithoutTheCodeProvesNothing) {
     run();
-    Manifest manifest = readManifest(root_ / "out" / "manifest.json");
-    manifest.pairs[0].b.recipe.settings["samples"] = 1;
-    try {
-        verify(manifest, folders(), context_->driver(), quiet);
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("its recipe now gives other pixels"));
+    const fs::path path = root_ / "out" / "manifest.json";
+    std::string text = readFile(path);
+    text.replace(text.find("\"schemaVersion\": 2"), 18, "\"schemaVersion\": 1");
+    for (std::size_t at; (at = text.find("\"codeSha256\"")) != text.npos;)
+        text.erase(at, text.find('\n', at) - at);
+    writeFile(path, text);
+    EXPECT_EQ(verified(), 4); // it can still be read and verified
+    const GenerateResult again = run();
+    EXPECT_EQ(again.rendered, 4);
+    EXPECT_THAT(again.warnings,
+                testing::ElementsAre(testing::HasSubstr("manifest.json is of version 1")));
+}
+
+// Only what is behind the camera's centre differs: a wall that fills the image, nearer and farther,
+// in the same constant light. Its depth alone tells the inputs apart.
+TEST_F(Generate, DepthIsPartOfWhatMustMatch) {
+    const std::vector<float> wall{-9, -9, 0, 9, -9, 0, 0, 9, 0};
+    writeFile(root_ / "scenes" / "t.bin", trianglesBuffer(wall));
+    writeFile(root_ / "scenes" / "t.gltf", trianglesGltf(wall));
+    const Protocol protocol = parseProtocol(protocolText(), "tiny.toml");
+    SceneHashes scenes(folders());
+    RecipeRenderer renderer(folders());
+    Recipe recipe = makeRecipe(protocol, protocol.conditions[0], 0, scenes, context_->driver());
+    recipe.technique = "none";
+    recipe.settings.clear();
+    recipe.view.camera.position = {0, 0, 1};
+    recipe.view.camera.target = {0, 0, 0};
+    const Rendering near = renderer.render(recipe);
+    const Rendering same = renderer.render(recipe);
+    recipe.view.camera.position = {0, 0, 1.25};
+    const Rendering far = renderer.render(recipe);
+    EXPECT_EQ(near.image.pixels, far.image.pixels);
+    EXPECT_EQ(near.inputsSha256, same.inputsSha256);
+    EXPECT_NE(near.inputsSha256, far.inputsSha256);
+}
+
+TEST_F(Generate, EveryImageCanBeMadeAgainFromItsRecipeAlone) {
+    run();
+    EXPECT_EQ(verified(), 0);
+}
+
+TEST_F(Generate, VerifyingNoticesEveryFileThatChanged) {
+    run(protocolText(), "out", true);
+    const Manifest manifest = readManifest(root_ / "out" / "manifest.json");
+    std::vector<std::string> files{manifest.contactSheet.path, manifest.pairs[1].b.image.path};
+    for (const auto& [kind, file] : manifest.pairs[0].b.layers)
+        files.push_back(file.path);
+    EXPECT_GE(files.size(), 7u);
+    for (const std::string& file : files) {
+        writeFile(root_ / "out" / file, readFile(root_ / "out" / file) + " ");
+        EXPECT_THAT(faultMendedBy(), testing::HasSubstr(file + ": has changed since it was made"));
+        fs::remove(root_ / "out" / file);
+        EXPECT_THAT(faultMendedBy(), testing::HasSubstr(file + ": is missing"));
     }
+}
+
+// Also when the manifest was made to agree.
+TEST_F(Generate, VerifyingRendersEveryLayerAgain) {
+    run(protocolText(), "out", true);
+    const fs::path path = root_ / "out" / "manifest.json";
+    const Manifest manifest = readManifest(path);
+    for (const auto& [kind, layer] : manifest.pairs[0].b.layers) {
+        const std::string whole = readFile(root_ / "out" / layer.path);
+        const std::string& other = manifest.pairs[1].b.layers.at(kind).path;
+        writeFile(root_ / "out" / layer.path, readFile(root_ / "out" / other));
+        Manifest forged = manifest;
+        forged.pairs[0].b.layers[kind].sha256 = sha256File(root_ / "out" / other);
+        writeManifest(path, forged);
+        if (layer.sha256 != forged.pairs[0].b.layers[kind].sha256) {
+            EXPECT_THAT(test::errorOf([&] { verified(); }),
+                        testing::HasSubstr("its recipe now gives other pixels"))
+                << kind;
+        }
+        writeFile(root_ / "out" / layer.path, whole);
+    }
+}
+
+TEST_F(Generate, VerifyingNoticesAnotherProtocol) {
+    run();
+    const auto with = [](const std::string& from, const std::string& to) {
+        std::string text = protocolText();
+        return text.replace(text.find(from), from.size(), to);
+    };
+    const std::vector<std::array<std::string, 3>> changes{
+        {"radius = 0.3", "radius = 0.4", "view.radius: 0.3, now 0.4"},
+        {"radius = 0.3", "radius = 0.5", "settings.radius: 0.3, now 0.5"},
+        {"samples = 8", "samples = 9", "settings.samples: 8, now 9"},
+        {"[0.4, 0.5, 1.5]", "[0.4, 0.5, 1.25]", "view.camera.position.2: 1.5, now 1.25"},
+        {"seed = 3", "seed = 4", "seed: 3, now 4"},
+        {"width = 64", "width = 32", "width: 64, now 32"},
+        {"antialiasing = 2", "antialiasing = 1", "antialiasing: 2, now 1"},
+        {"seed = 3", "seed = 3\nnormals = \"face\"", "normals: \"smooth\", now \"face\""},
+        {"elevationDegrees = 60", "elevationDegrees = 50", "level.sun.elevationDegrees"},
+        {"sky = {}", "sky = { zenith = [1, 1, 1] }", "level.sky.zenith.0: 0.25, now 1"},
+        {"\"none\", \"few\"", "\"crytek\", \"few\"", "technique: \"none\", now \"crytek\""},
+        {"id = \"second\"", "id = \"third\"", "condition \"third\" has no stimuli"},
+        {"name = \"tiny\"", "name = \"teeny\"", "is of the study \"tiny\""}};
+    for (const auto& [from, to, difference] : changes) {
+        const std::string fault = faultMendedBy(with(from, to));
+        run();
+        EXPECT_THAT(fault, testing::HasSubstr(difference)) << to;
+        EXPECT_THAT(fault, testing::HasSubstr("make the stimuli anew")) << to;
+    }
+}
+
+TEST_F(Generate, VerifyingAnswersForTheConditionAndItsLine) {
+    run();
+    std::string text = protocolText();
+    text.replace(text.find("samples = 8"), 11, "samples = 9");
+    EXPECT_THAT(test::errorOf([&] { verified(text); }),
+                testing::AllOf(testing::StartsWith("tiny.toml:20:1: conditions[1]: condition "
+                                                   "\"first\", image b (first_b_few.png)"),
+                               testing::HasSubstr("settings.samples: 8, now 9; make")));
+}
+
+TEST_F(Generate, ForeignFilesSurvive) {
+    const test::ForeignFiles foreign(root_ / "out");
+    run(protocolText(), "out", true);
+    EXPECT_EQ(foreign.lost(), "");
+    run(protocolText("9"));
+    checked(protocolText());
+    verified(protocolText("9"));
+    EXPECT_EQ(foreign.lost(), "");
+}
+
+// --check loads what generation would load, and a mistake is told with the line that names the
+// file.
+TEST_F(Generate, CheckingLoadsScenesAndEnvironments) {
+    EXPECT_NO_THROW(checked(protocolText()));
+    std::string text = protocolText();
+    const auto faultOf = [&](const std::string& protocol) {
+        const std::string fault = test::errorOf([&] { checked(protocol); });
+        EXPECT_EQ(test::errorOf([&] { run(protocol); }), fault) << "generation says the same";
+        return fault;
+    };
+    using testing::AllOf, testing::HasSubstr, testing::StartsWith;
+    const auto atScene = StartsWith("tiny.toml:4:1: scenes.triangle: ");
+    std::string missing = text;
+    missing.replace(missing.find("t.gltf"), 6, "x.gltf");
+    EXPECT_THAT(faultOf(missing), AllOf(atScene, HasSubstr("x.gltf: expected a glTF scene")));
+    writePng(root_ / "scenes" / "x.png", {1, 1, 3, {1, 2, 3}});
+    const std::string png = readFile(root_ / "scenes" / "x.png");
+    writeFile(root_ / "scenes" / "x.png", png.substr(0, png.size() / 2));
+    writeFile(root_ / "scenes" / "x.gltf",
+              triangleGltf("", R"(,"pbrMetallicRoughness":{"baseColorTexture":{"index":0}})",
+                           R"(,"textures":[{"source":0}],"images":[{"uri":"x.png"}])"));
+    EXPECT_THAT(faultOf(missing), AllOf(atScene, HasSubstr("x.png")));
+
+    const auto atLevel = StartsWith("tiny.toml:10:1: levels.high: ");
+    std::string lit = text;
+    lit.replace(lit.find("sky = {}"), 8, "environment = \"sky.exr\"");
+    EXPECT_THAT(faultOf(lit), AllOf(atLevel, HasSubstr("sky.exr: cannot be read: No such file")));
+    writeFile(root_ / "sky.exr", "not an image");
+    EXPECT_THAT(faultOf(lit), AllOf(atLevel, HasSubstr("sky.exr: expected an image")));
+    fs::remove(root_ / "sky.exr");
+    fs::create_directory(root_ / "sky.exr");
+    EXPECT_THAT(faultOf(lit), AllOf(atLevel, HasSubstr("sky.exr")));
 }
 
 // Never a silent difference between a scene and its image.
@@ -249,12 +446,9 @@ TEST_F(Generate, TellsWhatASceneUsesAndWeDoNotShow) {
 TEST_F(Generate, AMissingSceneNamesItsFile) {
     std::string text = protocolText();
     text.replace(text.find("t.gltf"), 6, "x.gltf");
-    try {
-        run(text);
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("x.gltf"));
-    }
+    EXPECT_THAT(test::errorOf([&] { run(text); }),
+                testing::AllOf(testing::StartsWith("tiny.toml:4:1: scenes.triangle: "),
+                               testing::HasSubstr("x.gltf")));
 }
 
 TEST(Plan, LoadsEachSceneAndLightingOnce) {

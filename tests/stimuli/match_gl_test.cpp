@@ -3,6 +3,7 @@
 #include "renderer/gl/context.h"
 #include "renderer/probe.h"
 #include "stimuli/match_files.h"
+#include "tests/foreign_files.h"
 #include "tests/renderer/small_gltf.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 namespace obscura {
 namespace {
@@ -74,8 +76,12 @@ class Match : public testing::Test {
         fs::remove_all(root_);
         writeFile(root_ / "t.bin", trianglesBuffer(corner()));
         writeFile(root_ / "t.gltf", trianglesGltf(corner()));
+        foreign_.emplace(root_ / "out");
     }
-    void TearDown() override { fs::remove_all(root_); }
+    void TearDown() override {
+        EXPECT_EQ(foreign_->lost(), ""); // whatever was done
+        fs::remove_all(root_);
+    }
 
     MatchResult run(const std::string& text, const std::string& out = "out",
                     const MatchProgress& progress = quiet) {
@@ -93,6 +99,7 @@ class Match : public testing::Test {
     inline static const MatchProgress quiet = [](double, double, const std::string&) {};
     inline static std::unique_ptr<gl::Context> context_;
     fs::path root_;
+    std::optional<test::ForeignFiles> foreign_;
 };
 
 // The partner is the technique itself under known settings: they are found again.
