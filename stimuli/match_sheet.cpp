@@ -13,7 +13,7 @@ namespace {
 
 // Pixels.
 constexpr int margin = 24, gap = 8, caption = 28, header = 84, widest = 480, tallest = 960;
-constexpr int columns = 4, titleWidth = 220, captionWidth = 1200; // that words need
+constexpr int columns = 4, titleWidth = 220, captionWidth = 1400; // that words need
 constexpr float fullColour = 0.25f;
 
 // Of thumbnails that keep the views' shape and are never enlarged.
