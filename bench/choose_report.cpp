@@ -1,6 +1,6 @@
 #include "bench/choose_report.h"
 
-#include "bench/figures.h"
+#include "bench/paper_figure.h"
 #include "bench/pareto.h"
 #include "protocols/csv.h"
 #include "protocols/error.h"

@@ -1,3 +1,4 @@
+#include "bench/ablation.h"
 #include "bench/choose.h"
 #include "bench/choose_report.h"
 #include "bench/commands.h"
@@ -138,6 +139,23 @@ void writePage(const fs::path& folder) {
     fmt::print("Page: {}\n", (folder / "sweep.html").string());
 }
 
+int writeAblation(const fs::path& folder) {
+    const std::vector<AblationTable> tables = ablationTables(groupsOf(readSweep(folder).rows));
+    if (tables.empty())
+        throw Error({folder.string(), 0, 0, {}},
+                    "expected a sweep of vao_plus_plus with and without its extensions, such as "
+                    "that of protocols/sweep-vao-plus-plus.toml, found none of it");
+    std::vector<Figure> figures;
+    for (const AblationTable& table : tables) {
+        figures.push_back(ablationFigure(table, figures.size() + 1));
+        fmt::print("{}", ablationText(table));
+    }
+    writeFile(folder / "ablation.csv", ablationCsv(tables));
+    writeFigures(folder / "figures", figures);
+    fmt::print("Written: {} and figures/ablation-*.svg\n", (folder / "ablation.csv").string());
+    return 0;
+}
+
 struct ChooseOptions {
     StudyOptions study;
     std::string scene;
@@ -252,6 +270,10 @@ std::vector<Command> sweepCommands(CLI::App& app) {
     CLI::App* page = app.add_subcommand("page", "a sweep's page and figures anew from its CSV");
     page->add_option("folder", study.out, "of the sweep")->required();
 
+    CLI::App* ablating =
+        app.add_subcommand("ablation", "what the extensions of VAO++ save, from a sweep of it");
+    ablating->add_option("folder", study.out, "of the sweep")->required();
+
     CLI::App* choosing =
         app.add_subcommand("choose", "the cheapest technique that is good enough for a scene");
     study.study = fs::path(OBSCURA_PROTOCOLS) / "sweep-builtin.toml";
@@ -289,6 +311,7 @@ std::vector<Command> sweepCommands(CLI::App& app) {
                  writePage(options->study.out);
                  return 0;
              }},
+            {ablating, [options] { return writeAblation(options->study.out); }},
             {choosing, [options] { return runChoose(*options); }}};
 }
 

@@ -1,7 +1,11 @@
 #pragma once
 
-#include "bench/sweep.h"
+#include "bench/sweep_row.h"
 #include "bench/timing.h"
+#include "protocols/sweep.h"
+
+#include <functional>
+#include <vector>
 
 namespace obscura {
 

@@ -21,9 +21,6 @@ struct Frame {
 
     double x(double value) const { return left + across.at(value) * (right - left); }
     double y(double value) const { return bottom - up.at(value) * (bottom - top); }
-    bool holds(const ParetoPoint& point) const {
-        return !std::isnan(point.milliseconds) && !std::isnan(point.error);
-    }
 };
 
 // Labels begin `room` to the right of the left edge.
@@ -49,9 +46,9 @@ std::string ticks(const Frame& frame, double room) {
 }
 
 // What took no time has no logarithm.
-std::string timeTicks(const Frame& frame, const std::vector<ParetoPoint>& points) {
+std::string timeTicks(const Frame& frame, const std::vector<ScatterPoint>& points) {
     const bool any = std::any_of(points.begin(), points.end(),
-                                 [](const ParetoPoint& point) { return point.milliseconds <= 0; });
+                                 [](const ScatterPoint& point) { return point.milliseconds <= 0; });
     return any ? ticks(frame, 14) + format("<text x=\"{}\" y=\"{}\" class=\"x\">0</text>",
                                            frame.left, frame.bottom + 18)
                : ticks(frame, 0);
@@ -69,24 +66,14 @@ std::string opening(const Frame& frame, const std::string& description) {
                   frame.height, escaped(description));
 }
 
-// One chart's points, their numbers on the front, and where its technique stands.
-struct Scatter {
-    const SweepGroup& group;
-    const std::vector<std::string>& techniques;
-    std::vector<ParetoPoint> points;
-    std::vector<std::size_t> front;
-    Frame frame;
-
-    std::size_t technique(std::size_t i) const {
-        return indexOf(techniques, group.points[i].technique);
-    }
-};
+bool isDrawn(const ScatterPoint& point) {
+    return !std::isnan(point.milliseconds) && !std::isnan(point.error);
+}
 
 // What the front leaves dominated, and its edge.
-std::string staircase(const Scatter& chart) {
+std::string staircase(const Scatter& chart, const Frame& frame) {
     if (chart.front.empty())
         return {};
-    const Frame& frame = chart.frame;
     std::string path =
         format("M{:.1f} {}", frame.x(chart.points[chart.front[0]].milliseconds), frame.top);
     for (const std::size_t i : chart.front)
@@ -97,16 +84,15 @@ std::string staircase(const Scatter& chart) {
                   path, frame.top);
 }
 
-// Configurations of one technique in order of cost.
-std::string threads(const Scatter& chart) {
+// The points of each series in order of cost.
+std::string threads(const Scatter& chart, const Frame& frame, std::size_t seriesCount) {
     std::string svg = "<g class=\"threads\">";
-    for (std::size_t t = 0; t < chart.techniques.size(); ++t) {
+    for (std::size_t t = 0; t < seriesCount; ++t) {
         std::string path;
-        for (std::size_t i = 0; i < chart.points.size(); ++i)
-            if (chart.technique(i) == t && chart.frame.holds(chart.points[i]))
+        for (const ScatterPoint& point : chart.points)
+            if (point.series == t && isDrawn(point))
                 path += format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L",
-                               chart.frame.x(chart.points[i].milliseconds),
-                               chart.frame.y(chart.points[i].error));
+                               frame.x(point.milliseconds), frame.y(point.error));
         if (path.find('L') != path.npos)
             svg += format("<path class=\"t{}\" d=\"{}\"/>", t, path);
     }
@@ -114,48 +100,42 @@ std::string threads(const Scatter& chart) {
 }
 
 // From the 5th to the 95th percentile.
-std::string bars(const Scatter& chart) {
+std::string bars(const Scatter& chart, const Frame& frame) {
     std::string svg = "<g class=\"bars\">";
-    for (std::size_t i = 0; i < chart.points.size(); ++i) {
-        const Milliseconds& total = chart.group.points[i].total;
-        if (!chart.frame.holds(chart.points[i]) || std::isnan(total.low + total.high))
-            continue;
-        svg += format("<path class=\"t{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", chart.technique(i),
-                      chart.frame.x(total.low), chart.frame.y(chart.points[i].error),
-                      chart.frame.x(total.high));
-    }
+    for (const ScatterPoint& point : chart.points)
+        if (isDrawn(point) && !std::isnan(point.low + point.high))
+            svg += format("<path class=\"t{}\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>", point.series,
+                          frame.x(point.low), frame.y(point.error), frame.x(point.high));
     return svg + "</g>";
 }
 
-std::string marks(const Scatter& chart, const ErrorMeasure& measure, std::size_t firstId) {
+std::string marks(const Scatter& chart, const Frame& frame, std::size_t firstId) {
     std::string svg;
     for (std::size_t i = 0; i < chart.points.size(); ++i) {
-        const ParetoPoint& point = chart.points[i];
-        if (!chart.frame.holds(point))
+        const ScatterPoint& point = chart.points[i];
+        if (!isDrawn(point))
             continue;
         const bool onFront =
             std::find(chart.front.begin(), chart.front.end(), i) != chart.front.end();
         svg += format("<a class=\"mark t{0}{1}\" href=\"#p{2}\" transform=\"translate({3:.1f},"
                       "{4:.1f})\" aria-label=\"{5}: {6} ms, {7} {8}\"><use href=\"#s{0}\"/></a>",
-                      chart.technique(i), onFront ? " best" : "", firstId + i,
-                      chart.frame.x(point.milliseconds), chart.frame.y(point.error),
-                      escaped(point.name), readable(point.milliseconds), escaped(measure.name),
-                      readable(point.error));
+                      point.series, onFront ? " best" : "", firstId + i,
+                      frame.x(point.milliseconds), frame.y(point.error), escaped(point.name),
+                      readable(point.milliseconds), escaped(chart.error), readable(point.error));
     }
     return svg;
 }
 
-std::string numbers(const Scatter& chart) {
+std::string numbers(const Scatter& chart, const Frame& frame) {
     std::vector<Spot> spots;
     for (const std::size_t i : chart.front)
-        spots.push_back(
-            {chart.frame.x(chart.points[i].milliseconds), chart.frame.y(chart.points[i].error)});
-    const auto places = numberPlaces(spots, chart.frame.left, chart.frame.bottom);
+        spots.push_back({frame.x(chart.points[i].milliseconds), frame.y(chart.points[i].error)});
+    const auto places = numberPlaces(spots, frame.left, frame.bottom);
     std::string svg = "<g class=\"numbers\">";
     for (std::size_t k = 0; k < spots.size(); ++k) {
         if (!places[k])
             continue;
-        const std::size_t t = chart.technique(chart.front[k]);
+        const std::size_t t = chart.points[chart.front[k]].series;
         if (places[k]->far)
             svg += format("<path class=\"t{}\" d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\"/>", t, spots[k].x,
                           spots[k].y, places[k]->x + 3, places[k]->y - 10);
@@ -186,25 +166,20 @@ std::vector<std::optional<NumberPlace>> numberPlaces(const std::vector<Spot>& sp
     return places;
 }
 
-std::string scatterSvg(const SweepGroup& group, const ErrorMeasure& measure,
-                       const std::vector<std::string>& techniques, std::size_t firstId) {
-    std::vector<ParetoPoint> points = paretoPoints(group, measure);
+std::string scatterSvg(const Scatter& chart, std::size_t seriesCount, std::size_t firstId) {
     std::vector<double> milliseconds, errors;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const Milliseconds& total = group.points[i].total;
-        milliseconds.insert(milliseconds.end(), {total.low, total.median, total.high});
-        errors.push_back(points[i].error);
+    for (const ScatterPoint& point : chart.points) {
+        milliseconds.insert(milliseconds.end(), {point.low, point.milliseconds, point.high});
+        errors.push_back(point.error);
     }
-    std::vector<std::size_t> front = paretoFront(points);
-    const Scatter chart{
-        group, techniques, std::move(points), std::move(front),
-        Frame{760, 470, 62, 748, 10, 418, logarithmicAxis(milliseconds), linearAxis(errors)}};
-    return opening(chart.frame, format("Milliseconds against {}", measure.name)) +
-           staircase(chart) + timeTicks(chart.frame, chart.points) +
-           titles(chart.frame, "milliseconds, median of frames (logarithmic)",
-                  format("{}, {} reference", measure.name, measure.reference)) +
-           threads(chart) + bars(chart) + numbers(chart) + marks(chart, measure, firstId) +
-           "<text class=\"name\"></text></svg>";
+    const Frame frame{
+        760, 470, 62, 748, 10, 418, logarithmicAxis(milliseconds), linearAxis(errors)};
+    return opening(frame, "Milliseconds against " + chart.error) + staircase(chart, frame) +
+           timeTicks(frame, chart.points) +
+           titles(frame, "milliseconds, median of frames (logarithmic)",
+                  format("{}, {} reference", chart.error, chart.reference)) +
+           threads(chart, frame, seriesCount) + bars(chart, frame) + numbers(chart, frame) +
+           marks(chart, frame, firstId) + "<text class=\"name\"></text></svg>";
 }
 
 std::string growthSvg(const std::vector<GrowthLine>& lines, const std::string& axisTitle) {
@@ -224,10 +199,10 @@ std::string growthSvg(const std::vector<GrowthLine>& lines, const std::string& a
                 format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", frame.x(value), frame.y(time));
             shapes += format("<use href=\"#s{}\" transform=\"translate({:.1f},{:.1f}) "
                              "scale(0.7)\"/>",
-                             line.technique, frame.x(value), frame.y(time));
+                             line.series, frame.x(value), frame.y(time));
         }
         svg += format("<g class=\"growth t{}\"><title>{}</title><path d=\"{}\"/>{}</g>",
-                      line.technique, escaped(line.title), path, shapes);
+                      line.series, escaped(line.title), path, shapes);
     }
     return svg + "</svg>";
 }

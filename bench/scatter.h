@@ -1,22 +1,39 @@
 #pragma once
 
 #include "bench/axis.h"
-#include "bench/sweep_summary.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace obscura {
 
-// Charts of sweep.html, as SVG that the page styles: what belongs to technique i has the class
-// "t<i>" and is drawn in currentColor, its mark is the shape "s<i>".
+// Charts of time against error and of time against a setting. As SVG for a page that styles them:
+// what belongs to series i has the class "t<i>" and is drawn in currentColor, its mark is the shape
+// "s<i>". As a script of gnuplot for papers, in the colours and shapes of marks.h.
 
-// Milliseconds (logarithmic; what took no time stands on the left border) against an error. Each
-// configuration is a link to its details, "#p<firstId + index>"; the front's are numbered in its
-// order, and a staircase marks what it leaves dominated.
-std::string scatterSvg(const SweepGroup& group, const ErrorMeasure& measure,
-                       const std::vector<std::string>& techniques, std::size_t firstId);
+struct ScatterPoint {
+    std::string name;
+    std::size_t series = 0;
+    double milliseconds = 0, low = 0, high = 0; // median, 5th and 95th percentile; NaN: not known
+    double error = 0;
+};
+struct Scatter {
+    std::vector<ScatterPoint> points; // those without time or error are not drawn
+    std::vector<std::size_t> front;   // that none dominates, by rising milliseconds
+    std::string error;                // what it is: "RMSE, matched"
+    std::string reference;            // against what: "full"
+};
+
+// Milliseconds (logarithmic; what took no time stands on the left border) against the error. Each
+// point is a link to its details, "#p<firstId + index>"; the front's are numbered in its order, and
+// a staircase marks what it leaves dominated.
+std::string scatterSvg(const Scatter& scatter, std::size_t seriesCount, std::size_t firstId);
+
+// The same for a figure of 7.2 x 4.4 inches, with a key at its right; "" where nothing has both a
+// time and an error.
+std::string scatterScript(const Scatter& scatter, const std::vector<std::string>& seriesNames);
 
 // Where the numbers of a front's points stand, centred on their base lines: below and left of each,
 // where nothing can be but other such numbers; further away, at the end of a line, where those are
@@ -34,7 +51,7 @@ std::vector<std::optional<NumberPlace>> numberPlaces(const std::vector<Spot>& sp
 // How milliseconds grow along one axis, both logarithmic: a line for each configuration.
 struct GrowthLine {
     std::string title;
-    std::size_t technique = 0;
+    std::size_t series = 0;
     std::vector<std::pair<double, double>> points; // value, milliseconds
 };
 std::string growthSvg(const std::vector<GrowthLine>& lines, const std::string& axisTitle);

@@ -168,10 +168,12 @@ std::string groupHtml(const SweepGroup& group, const std::vector<std::string>& t
                       std::size_t firstId) {
     std::string html = format("<section class=\"points\" id=\"g{}\">\n", firstId) +
                        element("h2", titleOf(group)) + viewsWarning(group);
-    html += "<div class=\"chart\"><div>" + eachMeasure([&](const ErrorMeasure& measure) {
-                return "<figure>" + scatterSvg(group, measure, techniques, firstId) +
-                       "<figcaption>" + frontSentence(group, measure) + "</figcaption></figure>";
-            });
+    html +=
+        "<div class=\"chart\"><div>" + eachMeasure([&](const ErrorMeasure& measure) {
+            return "<figure>" +
+                   scatterSvg(scatterOf(group, measure, techniques), techniques.size(), firstId) +
+                   "<figcaption>" + frontSentence(group, measure) + "</figcaption></figure>";
+        });
     html += legend(group, techniques) + "</div>\n" + panel(group, techniques, firstId) + "</div>\n";
     html += eachMeasure([&](const ErrorMeasure& measure) {
         return frontTable(group, measure, techniques, firstId);
@@ -184,24 +186,6 @@ std::string section(const char* id, const char* title, const std::string& text,
                     const std::string& content) {
     return format("<section id=\"{}\">", id) + element("h2", title) + element("p", text) + content +
            "</section>\n";
-}
-
-std::string ablationSection(const std::vector<SweepGroup>& groups) {
-    std::string tables;
-    for (const AblationTable& table : ablationTables(groups))
-        tables += ablationHtml(table);
-    if (tables.empty())
-        return {};
-    return section(
-        "ablation", "What the extensions of VAO++ save",
-        "Milliseconds by samples (lines), each extension alone and both together; in per cent of "
-        "VAO++ without either; the fastest in bold. Below, matched RMSE. First, the technique of "
-        "2010 with as many lines and otherwise equal settings, where it was measured. In grey, "
-        "what the paper printed: "
-        "Bokšanský, Pospíšil and Bittner 2017, Table 1, in Unity on a GTX 970 (per cent from "
-        "these milliseconds). "
-        "Ratios can be compared across machines, milliseconds cannot.",
-        tables);
 }
 
 std::string rateSection(const std::vector<SweepRow>& rows) {
@@ -334,7 +318,7 @@ std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
         html += groupHtml(group, techniques, firstId);
         firstId += group.points.size();
     }
-    html += ablationSection(groups) + rateSection(sweep.rows) + growthSection(sweep);
+    html += rateSection(sweep.rows) + growthSection(sweep);
     return html + format("<script>{}</script>\n</body>\n</html>\n", sweepPageScript);
 }
 

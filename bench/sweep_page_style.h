@@ -64,7 +64,6 @@ text.name { font-weight: 600; fill: #111; paint-order: stroke; stroke: white; st
 .front td, .front tbody th { vertical-align: middle; padding: .15rem .5rem; }
 .ranking th button { font: inherit; border: 0; background: none; padding: 0; cursor: pointer; text-align: inherit; }
 summary { cursor: pointer; margin: .5rem 0; }
-.ablation th, .ablation td { padding: .25rem .35rem; }
 .side { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(40rem, 100%), 1fr)); column-gap: 2rem; }
 .side > div { min-width: 0; }
 .published { color: #767676; } .published small { color: inherit; }

@@ -76,54 +76,6 @@ std::string errorLine(const std::string& name, const PictureError& error) {
            number(error.ssim, 4) + number(error.flip) + "</tr>";
 }
 
-// One resolution's four columns, ours or the paper's.
-struct AblationPart {
-    const AblationTable::Column& column;
-    const char *unit, *kind;
-
-    bool hasVao() const { // a column more
-        return *kind == 0 && std::any_of(column.vao.begin(), column.vao.end(),
-                                         [](double value) { return !std::isnan(value); });
-    }
-};
-
-std::string ablationHead(const std::vector<AblationPart>& parts) {
-    std::string titles = "<tr><th rowspan=\"2\" scope=\"col\" class=\"number\">samples</th>",
-                variants = "<tr>";
-    for (const AblationPart& part : parts) {
-        titles += format("<th colspan=\"{}\" scope=\"colgroup\" class=\"group {}\">{}{}</th>",
-                         part.hasVao() ? 5 : 4, part.kind, escaped(part.column.title), part.unit);
-        variants += part.hasVao() ? "<th scope=\"col\" class=\"number group\">VAO 2010</th>" : "";
-        for (std::size_t v = 0; v < ablationVariants.size(); ++v)
-            variants += format("<th scope=\"col\" class=\"number {}{}\">{}</th>", part.kind,
-                               v || part.hasVao() ? "" : " group", ablationVariants[v]);
-    }
-    return titles + "</tr>" + variants + "</tr>";
-}
-
-std::string ablationCells(const AblationPart& part, std::size_t samples) {
-    const auto& line = part.column.milliseconds[samples];
-    const double fastest = *std::min_element(line.begin(), line.end(), [](double a, double b) {
-        return std::isnan(b) ? !std::isnan(a) : a < b;
-    });
-    std::string html;
-    if (part.hasVao())
-        html += format("<td class=\"number group\">{}<br/><small>both: {} %</small></td>",
-                       readable(part.column.vao[samples]),
-                       readable(100 * line.back() / part.column.vao[samples], 2));
-    for (std::size_t v = 0; v < line.size(); ++v) {
-        const bool published = *part.kind != 0; // in hundredths
-        const std::string text = published ? format("{:.2f}", line[v]) : readable(line[v]);
-        const double percent = 100 * line[v] / line[0], rmse = part.column.rmse[samples][v];
-        html += format(
-            "<td class=\"number {}{}\">{}{}{}</td>", part.kind, v || part.hasVao() ? "" : " group",
-            line[v] == fastest ? "<b>" + text + "</b>" : text,
-            v && !std::isnan(percent) ? format(" <small>{:.0f} %</small>", percent) : "",
-            published || std::isnan(rmse) ? "" : format("<br/><small>{:.4f}</small>", rmse));
-    }
-    return html;
-}
-
 } // namespace
 
 std::string markHtml(std::size_t technique) {
@@ -214,23 +166,6 @@ std::string detailsOf(const SweepRow& point) {
                   escaped(point.technique), escaped(point.settings),
                   point.fitted.empty() ? "the same" : escaped(point.fitted), escaped(point.view),
                   readable(point.radius));
-}
-
-std::string ablationHtml(const AblationTable& table) {
-    std::vector<AblationPart> parts;
-    for (const auto& column : table.columns)
-        parts.push_back({column, ", ms", ""});
-    for (const auto& column : publishedAblation().columns)
-        parts.push_back({column, ", ms on a GTX 970", "published"});
-    std::string body;
-    for (std::size_t s = 0; s < ablationSamples.size(); ++s) {
-        body += format("<tr><th scope=\"row\" class=\"number\">{}</th>", ablationSamples[s]);
-        for (const AblationPart& part : parts)
-            body += ablationCells(part, s);
-        body += "</tr>\n";
-    }
-    return element("h3", table.scene) + wide(ablationHead(parts), body, "ablation") +
-           format("<p class=\"aside\">Equal in every cell: {}.</p>\n", escaped(table.settings));
 }
 
 std::string frameRatesHtml(const FrameRates& rates) {

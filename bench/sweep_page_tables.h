@@ -1,7 +1,7 @@
 #pragma once
 
+#include "bench/frame_rates.h"
 #include "bench/growth.h"
-#include "bench/sweep_tables.h"
 
 #include <string>
 #include <vector>
@@ -21,7 +21,6 @@ std::string rankingTable(const SweepGroup& group, const std::vector<std::string>
 // All numbers of one point.
 std::string detailsOf(const SweepRow& point);
 
-std::string ablationHtml(const AblationTable& table);
 std::string frameRatesHtml(const FrameRates& rates);
 // `techniqueOf` a configuration: its place among the sweep's techniques.
 std::string slopesHtml(const std::vector<Growth>& growth,

@@ -1,5 +1,7 @@
 #include "bench/sweep_summary.h"
 
+#include "protocols/percentile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,14 +32,7 @@ double mean(Rows rows, const Of& of) {
     return sum / static_cast<double>(rows.size());
 }
 
-double median(Rows rows, const Of& of) {
-    std::vector<double> values = valuesOf(rows, of);
-    if (std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); }))
-        return std::numeric_limits<double>::quiet_NaN();
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
+double median(Rows rows, const Of& of) { return percentile(valuesOf(rows, of), 0.5); }
 
 PictureError errorOf(Rows rows, PictureError SweepRow::*error) {
     const auto squared = [&](const SweepRow& row) { return std::pow((row.*error).rmse, 2); };
@@ -195,6 +190,16 @@ std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasur
     for (const SweepRow& row : group.points)
         points.push_back({row.total.median, measure.of(row), row.configuration});
     return points;
+}
+
+Scatter scatterOf(const SweepGroup& group, const ErrorMeasure& measure,
+                  const std::vector<std::string>& techniques) {
+    Scatter scatter{{}, paretoFront(paretoPoints(group, measure)), measure.name, measure.reference};
+    for (const SweepRow& row : group.points)
+        scatter.points.push_back({row.configuration, indexOf(techniques, row.technique),
+                                  row.total.median, row.total.low, row.total.high,
+                                  measure.of(row)});
+    return scatter;
 }
 
 std::vector<std::string> techniquesOf(const std::vector<SweepRow>& rows) {

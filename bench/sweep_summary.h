@@ -1,6 +1,7 @@
 #pragma once
 
 #include "bench/pareto.h"
+#include "bench/scatter.h"
 #include "bench/sweep_row.h"
 
 #include <map>
@@ -48,6 +49,10 @@ struct ErrorMeasure {
 std::span<const ErrorMeasure> errorMeasures(); // the first is the default
 
 std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasure& measure);
+
+// The group as a chart shows it; `techniques` are the series.
+Scatter scatterOf(const SweepGroup& group, const ErrorMeasure& measure,
+                  const std::vector<std::string>& techniques);
 
 // Ids in alphabetical order: what colours and marks are given out by.
 std::vector<std::string> techniquesOf(const std::vector<SweepRow>& rows);

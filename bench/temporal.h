@@ -1,9 +1,7 @@
 #pragma once
 
-#include "bench/shots.h"
-#include "bench/stability_cell.h"
+#include "bench/temporal_study.h"
 
-#include <filesystem>
 #include <functional>
 
 namespace obscura {
@@ -22,30 +20,8 @@ namespace obscura {
 // `none`: its unreal change is the truth's warped change. No technique can be told from perfect
 // below those.
 
-// How much is drawn.
-struct TemporalEffort {
-    int width, height;
-    int frames; // of each test, at least 3
-    int rays;   // per pixel of the truth
-    std::vector<std::string> tests;
-};
 TemporalEffort fullTemporalEffort();
 TemporalEffort quickTemporalEffort(); // smaller, fewer frames and rays, and two paths
-
-struct TemporalStudy {
-    const Scene& scene;
-    Camera start;
-    double radius; // metres; of the truth, and what the configurations have
-    std::vector<NamedSettings> configurations;
-    TemporalEffort effort;
-    std::filesystem::path folder; // pictures/ in it takes the pictures
-};
-
-// The name of the 99th percentile of the headline among the cells' measures.
-inline constexpr std::string_view unrealChange99 = "unreal change, 99th percentile";
-
-// The measure of a run's one cell whose picture moves (temporal_animation.h).
-inline constexpr std::string_view worstFlicker = "the worst flicker of the run";
 
 // Told the share done, 0 ... 1, and the test at hand.
 using TemporalProgress = std::function<void(double, const std::string&)>;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "bench/temporal.h"
+#include "bench/temporal_study.h"
 #include "bench/temporal_tests.h"
 
 #include <optional>

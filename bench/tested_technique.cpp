@@ -1,6 +1,7 @@
 #include "bench/tested_technique.h"
 
 #include "protocols/error.h"
+#include "protocols/percentile.h"
 
 #include <fmt/format.h>
 
@@ -80,8 +81,7 @@ double TestedTechnique::seconds(const Probe& probe, int runs) const {
         visibility(probe);
         times.push_back(std::chrono::duration<double>(Clock::now() - start).count());
     }
-    std::nth_element(times.begin(), times.begin() + runs / 2, times.end());
-    return times[static_cast<std::size_t>(runs / 2)];
+    return percentile(std::move(times), 0.5);
 }
 
 } // namespace obscura

@@ -1,5 +1,6 @@
 #include "bench/timing.h"
 
+#include "protocols/percentile.h"
 #include "protocols/random.h"
 
 #include <algorithm>
@@ -11,13 +12,6 @@
 namespace obscura {
 
 namespace {
-
-double percentile(const std::vector<double>& sorted, double share) {
-    const double rank = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(rank);
-    const std::size_t above = std::min(below + 1, sorted.size() - 1);
-    return std::lerp(sorted[below], sorted[above], rank - static_cast<double>(below));
-}
 
 // One technique of a group, with the times of its frames so far.
 struct Runner {
@@ -199,7 +193,6 @@ double guardShare(const Settings& settings, int width, int height) {
 Milliseconds summaryOf(std::vector<double> milliseconds) {
     if (milliseconds.empty())
         return {};
-    std::sort(milliseconds.begin(), milliseconds.end());
     return {percentile(milliseconds, 0.5), percentile(milliseconds, 0.05),
             percentile(milliseconds, 0.95)};
 }

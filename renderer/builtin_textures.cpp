@@ -1,6 +1,6 @@
 #include "renderer/builtin_textures.h"
 
-#include "renderer/builtin_parallel.h"
+#include "renderer/parallel.h"
 #include "renderer/builtin_shapes.h"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ int addColourTexture(Scene& scene, Image8 image) {
 int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Painter& painter) {
     Texture colour = blank(canvas.size, true), gloss = blank(canvas.size, false);
     std::vector<float> heights(gloss.image.pixels.size() / 4);
-    onBothCores(heights.size(), [&](std::size_t pixel) {
+    forEachInParallel(heights.size(), [&](std::size_t pixel) {
         const int index = static_cast<int>(pixel);
         const glm::vec2 place(index % canvas.size, index / canvas.size);
         const Texel texel = painter((place + 0.5F) / part(canvas.size, 1));

@@ -1,7 +1,8 @@
 #pragma once
 
 #include "renderer/ray_scene.h"
-#include "renderer/reference.h"
+#include "renderer/surfaces.h"
+#include "renderer/trace_settings.h"
 
 #include <array>
 #include <span>

@@ -1,6 +1,7 @@
 #include "protocols/progress.h"
 #include "renderer/reference_cache.h"
 #include "stimuli/generate.h"
+#include "stimuli/match.h"
 #include "stimuli/match_files.h"
 
 #include <CLI/CLI.hpp>

@@ -7,6 +7,7 @@
 #include "stimuli/fit.h"
 #include "stimuli/match_files.h"
 #include "stimuli/match_sheet.h"
+#include "stimuli/page.h"
 #include "stimuli/truths.h"
 
 #include <fmt/format.h>
@@ -169,7 +170,7 @@ class Matching {
     std::vector<MatchRow> measure(const TechniqueSetting& setting, const Values& values,
                                   const std::string& stage);
     std::vector<MatchRow> truthRows() const;
-    Image8 sheet(const MatchResult& result);
+    void writeSheet();
     const ImageSize& size(const Case& at) const {
         return at.train ? study_.training : study_.image;
     }
@@ -434,12 +435,12 @@ std::vector<MatchRow> Matching::truthRows() const {
     return rows;
 }
 
-Image8 Matching::sheet(const MatchResult& result) {
+void Matching::writeSheet() {
     const Case& at =
         *std::find_if(cases_.begin(), cases_.end(), [](const Case& each) { return !each.train; });
     const Image& target = at.targets.at(targetOf(study_));
     std::vector<MatchPictures> pictures;
-    for (const MatchedTechnique& technique : result.techniques) {
+    for (const MatchedTechnique& technique : result_.techniques) {
         if (technique.rows.empty())
             continue;
         const auto render = [&](const Values& values) {
@@ -456,9 +457,12 @@ Image8 Matching::sheet(const MatchResult& result) {
             row.title += fmt::format(", {} {}", name, value);
         pictures.push_back(std::move(row));
     }
-    return matchSheet(fmt::format("{}: test view {}, radius {:g} m, compared with {}", study_.name,
-                                  at.view.name, at.view.radius, targetOf(study_)),
-                      target, pictures);
+    const std::vector<Image8> pages =
+        matchSheet(fmt::format("{}: test view {}, radius {:g} m, compared with {}", study_.name,
+                               at.view.name, at.view.radius, targetOf(study_)),
+                   target, pictures);
+    for (std::size_t i = 0; i < pages.size(); ++i)
+        writePng(folder_ / pageName("match", i, pages.size()), pages[i]);
 }
 
 MatchResult Matching::run() {
@@ -483,8 +487,8 @@ MatchResult Matching::run() {
     }
     effort_.begin(0, "writing");
     writeFile(folder_ / "match.csv", matchTable(result_));
-    writePng(folder_ / "match.png", sheet(result_));
     writeFile(folder_ / "matched.toml", matchedFragment(study_, result_));
+    writeSheet(); // last: what was found outlives a picture that cannot be drawn
     return std::move(result_);
 }
 

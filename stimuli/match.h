@@ -2,43 +2,15 @@
 
 #include "protocols/match.h"
 #include "renderer/gl/context.h"
-#include "renderer/image_error.h"
 #include "renderer/render.h"
-#include "renderer/settings.h"
+#include "stimuli/match_row.h"
 
+#include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace obscura {
-
-// One line of match.csv: a technique's error on one view.
-struct MatchRow {
-    std::string technique; // name in the study; of a truth itself, "cosine reference" and so on
-    std::string view;
-    double radius = 0; // metres
-    bool train = false;
-    std::string reference; // what it is compared with
-    std::string stage;     // "raw" or "matched"
-    ImageError error;
-};
-
-struct MatchedTechnique {
-    TechniqueSetting setting;             // as the study gives it
-    std::map<std::string, double> fitted; // settings that were fitted
-    std::string note; // why nothing, or not all, was fitted; "" when all is well
-    std::vector<MatchRow> rows;
-};
-
-struct MatchResult {
-    std::vector<MatchedTechnique> techniques;
-    std::vector<MatchRow> truths;                   // among each other, on test views
-    std::map<std::string, std::string> sceneSha256; // by file or built-in name
-    std::vector<std::string> warnings;              // of scenes
-    int kept = 0;                                   // techniques known from an earlier run
-};
 
 // Called now and then: how much is done, of how much (about seconds), and what is at hand.
 using MatchProgress = std::function<void(double done, double total, const std::string& note)>;

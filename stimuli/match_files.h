@@ -1,7 +1,8 @@
 #pragma once
 
-#include "stimuli/match.h"
+#include "stimuli/match_row.h"
 
+#include <filesystem>
 #include <optional>
 
 namespace obscura {

@@ -12,9 +12,10 @@ struct MatchPictures {
     Image raw, matched;
 };
 
-// One test view on one page, a row for each technique: reference, raw, matched, and where the
-// matched one is too dark (red) or too light (blue), full colour at a difference of 0.25.
-Image8 matchSheet(const std::string& title, const Image& reference,
-                  const std::vector<MatchPictures>& techniques);
+// One test view, a row for each technique, on as many pages as that takes: reference, raw, matched,
+// and where the matched one is too dark (red) or too light (blue), full colour at a difference of
+// 0.25.
+std::vector<Image8> matchSheet(const std::string& title, const Image& reference,
+                               const std::vector<MatchPictures>& techniques);
 
 } // namespace obscura

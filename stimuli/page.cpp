@@ -1,9 +1,12 @@
 #include "stimuli/page.h"
 
+#include "protocols/error.h"
+
 #include <fmt/format.h>
 #include <pango/pangocairo.h>
 
 #include <algorithm>
+#include <cassert>
 
 namespace obscura {
 
@@ -18,6 +21,15 @@ struct Destroy {
 template <typename T>
 using Owned = std::unique_ptr<T, Destroy>;
 
+constexpr int mostPixels = 32767; // across or down, of a Cairo surface
+constexpr int tallestPage = 16000;
+
+void check(cairo_status_t status, int width, int height) {
+    if (status != CAIRO_STATUS_SUCCESS)
+        throw Error(fmt::format("a page of {} x {} pixels cannot be drawn: {}", width, height,
+                                cairo_status_to_string(status)));
+}
+
 } // namespace
 
 struct Page::Canvas {
@@ -26,8 +38,13 @@ struct Page::Canvas {
 };
 
 Page::Page(int width, int height) {
+    if (std::min(width, height) < 1 || std::max(width, height) > mostPixels)
+        throw Error(fmt::format("expected a page of 1 to {} pixels across and down, found {} x {}",
+                                mostPixels, width, height));
     Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    check(cairo_surface_status(surface.get()), width, height);
     Owned<cairo_t> cairo(cairo_create(surface.get()));
+    check(cairo_status(cairo.get()), width, height);
     cairo_set_source_rgb(cairo.get(), 1, 1, 1);
     cairo_paint(cairo.get());
     canvas_.reset(new Canvas{std::move(surface), std::move(cairo)});
@@ -46,6 +63,8 @@ void Page::text(int x, int y, const std::string& markup, int size) {
 }
 
 void Page::image(int x, int y, const Image8& image) {
+    assert(x >= 0 && x + image.width <= cairo_image_surface_get_width(canvas_->surface.get()));
+    assert(y >= 0 && y + image.height <= cairo_image_surface_get_height(canvas_->surface.get()));
     cairo_surface_flush(canvas_->surface.get());
     unsigned char* data = cairo_image_surface_get_data(canvas_->surface.get());
     const int stride = cairo_image_surface_get_stride(canvas_->surface.get());
@@ -74,6 +93,8 @@ Image8 Page::finish() const {
                 cairo_image_surface_get_height(canvas_->surface.get()),
                 3,
                 {}};
+    check(cairo_status(canvas_->cairo.get()), page.width, page.height);
+    check(cairo_surface_status(canvas_->surface.get()), page.width, page.height);
     const unsigned char* data = cairo_image_surface_get_data(canvas_->surface.get());
     const int stride = cairo_image_surface_get_stride(canvas_->surface.get());
     for (int row = 0; row < page.height; ++row)
@@ -81,6 +102,20 @@ Image8 Page::finish() const {
             for (const int byte : {2, 1, 0})
                 page.pixels.push_back(data[row * stride + column * 4 + byte]);
     return page;
+}
+
+std::vector<PageRows> pagesOf(std::size_t rows, int rowHeight, int headerHeight) {
+    const auto most = static_cast<std::size_t>(
+        std::max((tallestPage - headerHeight) / std::max(rowHeight, 1), 1));
+    const std::size_t pages = std::max<std::size_t>((rows + most - 1) / most, 1);
+    std::vector<PageRows> result;
+    for (std::size_t page = 0; page < pages; ++page)
+        result.push_back({rows * page / pages, rows * (page + 1) / pages});
+    return result;
+}
+
+std::string pageName(const std::string& stem, std::size_t page, std::size_t pages) {
+    return pages == 1 ? stem + ".png" : fmt::format("{}-{}.png", stem, page + 1);
 }
 
 Image8 grey(const Image& visibility) {

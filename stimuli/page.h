@@ -2,12 +2,16 @@
 
 #include "renderer/image.h"
 
+#include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
-// A white page of pictures and words (Cairo and Pango).
+// A white page of pictures and words (Cairo and Pango). A Cairo surface of more than 32,767 pixels
+// across or down has no data, and says so only when asked: such a page, and any other that Cairo
+// cannot make, is an Error.
 class Page {
   public:
     Page(int width, int height);
@@ -25,6 +29,16 @@ class Page {
     struct Canvas;
     std::unique_ptr<Canvas> canvas_;
 };
+
+// A long table is cut into pages of whole rows, as even as can be and at most 16,000 pixels high
+// (more where a single row is), which viewers and browsers still open.
+struct PageRows {
+    std::size_t first = 0, last = 0; // rows first ... last - 1
+};
+std::vector<PageRows> pagesOf(std::size_t rows, int rowHeight, int headerHeight);
+
+// "sheet.png" of an only page, else "sheet-1.png" and so on; `page` counts from 0.
+std::string pageName(const std::string& stem, std::size_t page, std::size_t pages);
 
 // Visibility as code values, 3 channels.
 Image8 grey(const Image& visibility);

@@ -22,7 +22,7 @@ TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
             row.configuration = row.technique = "it's {x}_y ^ <z> & \"w\"";
     }
     const std::vector<Figure> figures = sweepFigures(sweep);
-    ASSERT_EQ(figures.size(), 3u); // scatter, ablation, growth
+    ASSERT_EQ(figures.size(), 2u); // scatter, growth
     writeFigures(folder.path(), figures);
     for (const Figure& figure : figures) {
         const std::string svg = readFile(folder / (figure.name + ".svg"));

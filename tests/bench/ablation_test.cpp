@@ -1,5 +1,4 @@
-#include "bench/sweep_tables.h"
-#include "renderer/settings.h"
+#include "bench/ablation.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +9,7 @@
 namespace obscura {
 namespace {
 
-using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
@@ -103,56 +102,16 @@ TEST(Ablation, NeedsMoreThanOneVariant) {
     EXPECT_THAT(ablationTables(groupsOf({vaoRow(settingsOf(8, 1, 2), 4)})), IsEmpty());
 }
 
-// As a row of the technique's defaults would be written.
-SweepRow defaultRow(const std::string& id, int view) {
-    SweepRow row;
-    row.technique = id;
-    row.configuration = id;
-    for (const auto& [name, value] : Settings(technique(id)).named())
-        row.settings += fmt::format("{}={} ", name, name == "radius" ? 0.77 : value);
-    row.scene = "sponza";
-    row.view = fmt::format("view {}", view);
-    row.width = 1920;
-    row.height = 1080;
-    row.gbuffer = 2;
-    row.total.median = view;
-    return row;
-}
-
-TEST(FrameRates, AreThoseOfDefaultSettingsOnFourViews) {
-    std::vector<SweepRow> rows;
-    for (int view = 1; view <= 5; ++view) {
-        rows.push_back(defaultRow("hbao", view));
-        rows.push_back(defaultRow("starcraft", view));
-        rows.back().settings = "samples=3";
-        if (view != 2)
-            rows.push_back(defaultRow("vao_plus_plus", view));
-    }
-    const auto all = frameRates(rows);
-    ASSERT_THAT(all, SizeIs(1));
-    EXPECT_THAT(all[0].views, ElementsAre("view 1", "view 2", "view 3", "view 4"));
-    ASSERT_THAT(all[0].lines, SizeIs(2));
-    EXPECT_EQ(all[0].lines[0].technique, "hbao");
-    EXPECT_THAT(all[0].lines[0].milliseconds, ElementsAre(3, 4, 5, 6));
-    EXPECT_TRUE(std::isnan(all[0].lines[1].milliseconds[1]));
-}
-
-TEST(FrameRates, AreOfOneGBufferPerView) {
-    std::vector<SweepRow> rows = {defaultRow("hbao", 1), defaultRow("gtao", 1),
-                                  defaultRow("starcraft", 1)};
-    rows[0].gbuffer = 9; // another program ran, perhaps
-    rows[2].settings = "samples=3";
-    const auto all = frameRates(rows);
-    ASSERT_THAT(all, SizeIs(1));
-    for (const FrameRates::Line& line : all[0].lines)
-        EXPECT_THAT(line.milliseconds, ElementsAre(3)) << line.technique;
-}
-
-TEST(FrameRates, DoNotTakeUnknownTechniquesForDefaults) {
-    SweepRow row = defaultRow("hbao", 1);
-    EXPECT_TRUE(hasDefaultSettings(row));
-    row.technique = "<nobody's>";
-    EXPECT_FALSE(hasDefaultSettings(row));
+TEST(Ablation, IsWrittenWithThePapersOwnCells) {
+    const auto tables =
+        ablationTables(groupsOf({vaoRow(settingsOf(8, 0, 0), 4), vaoRow(settingsOf(8, 1, 0), 3)}));
+    ASSERT_THAT(tables, SizeIs(1));
+    const std::string csv = ablationCsv(tables);
+    EXPECT_THAT(csv, HasSubstr("sponza,blur=1 radius=0.5,1920×1080,8,adaptive,3,75,"));
+    EXPECT_THAT(csv, HasSubstr("sponza,blur=1 radius=0.5,1920×1080,16,plain,,,"));
+    EXPECT_THAT(csv, HasSubstr("GTX 970 (paper),,3840×2160,32,both,9.77,41.2062,\n"));
+    EXPECT_THAT(ablationText(tables[0]), HasSubstr("3 ( 75 %)"));
+    EXPECT_THAT(ablationFigure(tables[0], 1).script, HasSubstr("set title '1920×1080'"));
 }
 
 } // namespace
