@@ -36,7 +36,7 @@ Response row(int trial) {
     row.conditionId = row.level = row.scene = row.techniqueA = row.techniqueB = "x";
     row.paramsA = "{\"radius\":0.5,\"samples\":24}";
     row.stimFirst = row.stimSecond = "x.png";
-    row.sha256First = row.sha256Second = row.protocolSha256 = digest;
+    row.sha256First = row.sha256Second = row.protocolSha256 = row.designSha256 = digest;
     row.firstIs = "a";
     row.maskFramesPlanned = row.maskFramesShown = 120;
     row.refreshHz = 60;
