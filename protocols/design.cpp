@@ -78,6 +78,16 @@ json toJson(const ExGaussian& time) {
     return {{"mean", mean}, {"deviation", deviation}, {"tail", tail}};
 }
 
+json toJson(const Texts& texts) {
+    const auto& [instructions, start, question, first, second, thanks] = texts;
+    return {{"instructions", instructions},
+            {"start", start},
+            {"question", question},
+            {"first", first},
+            {"second", second},
+            {"thanks", thanks}};
+}
+
 // Conditions by their ids, since their order is no matter of the pictures.
 struct SplitConditions {
     json stimuli = json::object(), simulated = json::object(), order = json::array();
@@ -116,7 +126,6 @@ Parts split(const Protocol& protocol) {
                  conditions, trial, ordering, words, simulation, path, sha256] = protocol;
     const auto& [mask, grey, minimumView] = trial;
     const auto& [scheme, participants] = ordering;
-    const auto& [instructions, start, question, first, second, thanks] = words;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -133,13 +142,7 @@ Parts split(const Protocol& protocol) {
                         {"order of conditions", parts.order}};
     result.texts = {{"name", name},
                     {"title", title},
-                    {"texts",
-                     {{"instructions", instructions},
-                      {"start", start},
-                      {"question", question},
-                      {"first", first},
-                      {"second", second},
-                      {"thanks", thanks}}},
+                    {"texts", toJson(words)},
                     {"ordering", {{"participants", participants}}},
                     {"simulation",
                      {{"positionBias", positionBias},
