@@ -133,14 +133,13 @@ fs::path DataFolder::journal(const SessionId& session) const {
     return root_ / "sessions" / (stem(session) + "_journal.jsonl");
 }
 
+fs::path DataFolder::design() const { return root_ / "sessions" / "design.json"; }
+
 fs::path DataFolder::sidecar(const SessionId& session) const {
     return root_ / "sessions" / (stem(session) + "_session.json");
 }
 
 fs::path DataFolder::ledger() const { return root_ / "sessions" / "ledger.jsonl"; }
-
-fs::path DataFolder::design() const { return root_ / "sessions" / "design.json"; }
-
 std::string objection(const DataFolder& folder, const SessionId& session) {
     const std::string& id = session.participant;
     if (id.empty() || id.size() > longestId || !std::all_of(id.begin(), id.end(), isAlphanumeric))
