@@ -140,6 +140,7 @@ fs::path DataFolder::sidecar(const SessionId& session) const {
 }
 
 fs::path DataFolder::ledger() const { return root_ / "sessions" / "ledger.jsonl"; }
+
 std::string objection(const DataFolder& folder, const SessionId& session) {
     const std::string& id = session.participant;
     if (id.empty() || id.size() > longestId || !std::all_of(id.begin(), id.end(), isAlphanumeric))
