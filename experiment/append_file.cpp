@@ -56,11 +56,12 @@ AppendFile AppendFile::create(const fs::path& path, std::string_view lines) {
                     "expected to create a new file, found one of this name");
     // A file system that cannot rename without replacing (NFS).
     AppendFile file(path, O_CREAT | O_EXCL, "expected to create a new file");
-    file.append(lines);
+    if (!lines.empty())
+        file.append(lines);
     return file;
 }
 
-AppendFile AppendFile::openLocked(const fs::path& path, bool (*whole)(std::string_view)) {
+AppendFile AppendFile::openLocked(const fs::path& path, IsWhole whole) {
     AppendFile file(path, O_CREAT, "cannot be opened");
     while (::flock(file.descriptor_, LOCK_EX) != 0)
         if (errno != EINTR)
@@ -98,7 +99,7 @@ void AppendFile::append(std::string_view lines) {
                      lines.substr(0, lines.size() - 1)));
 }
 
-void AppendFile::mendLastLine(bool (*whole)(std::string_view)) {
+void AppendFile::mendLastLine(IsWhole whole) {
     const std::string content = readFile(path_);
     const std::size_t end = content.rfind('\n') + 1; // npos + 1 is 0: no line at all
     if (end == content.size())
