@@ -100,13 +100,23 @@ bool knows(const std::vector<SlotRecord>& history, const SlotRecord& session) {
     });
 }
 
+// The first few of what there is.
+std::string listOf(std::vector<std::string> items, std::string_view separator) {
+    constexpr std::size_t most = 8;
+    const std::size_t more = items.size() > most ? items.size() - most : 0;
+    items.resize(items.size() - more);
+    if (more > 0)
+        items.push_back(fmt::format("{} more", more));
+    return fmt::format("{}", fmt::join(items, separator));
+}
+
 std::string listOf(const std::vector<SlotRecord>& records) {
-    std::string list;
+    std::vector<std::string> items;
     for (const SlotRecord& record : records)
         if (!record.session.participant.empty())
-            list += fmt::format("{}slot {} ({}, session {})", list.empty() ? "" : ", ", record.slot,
-                                record.session.participant, record.session.number);
-    return list;
+            items.push_back(fmt::format("slot {} ({}, session {})", record.slot,
+                                        record.session.participant, record.session.number));
+    return listOf(std::move(items), ", ");
 }
 
 void checkLedgerIsWhole(const DataFolder& folder) {
@@ -127,12 +137,7 @@ std::string changes(const DataFolder& folder, const std::string& hash, const std
                           : json();
     if (!kept.is_object() || !kept.contains("design") || sha256(kept["design"].dump()) != hash)
         return fmt::format("its hash was {:.12}..., is now {:.12}...", hash, sha256(design));
-    std::vector<std::string> list = differences(kept["design"].dump(), design);
-    constexpr std::size_t most = 6;
-    const std::size_t more = list.size() > most ? list.size() - most : 0;
-    list.resize(list.size() - more);
-    return fmt::format("{}{}", fmt::join(list, "; "),
-                       more ? fmt::format("; and {} more", more) : "");
+    return listOf(differences(kept["design"].dump(), design), "; ");
 }
 
 } // namespace
