@@ -63,26 +63,29 @@ void addFromRows(const fs::path& path, SlotRecord& trace) {
     }
 }
 
+constexpr std::string_view sidecarEnd = "_session.json", journalEnd = "_journal.jsonl",
+                           rowsEnd = "_data.csv";
+
+void addFromFile(const fs::path& path, std::string_view end, SlotRecord& trace) {
+    if (trace.slot > 0)
+        return; // another file has told
+    if (end == rowsEnd)
+        addFromRows(path, trace);
+    else
+        addFromJson(end == sidecarEnd ? readFile(path) : firstLine(path), trace);
+}
+
 // By the stem that a session's files share. Of each session the file that knows most.
 std::vector<SlotRecord> tracesIn(const DataFolder& folder) {
-    constexpr std::string_view kinds[] = {"_session.json", "_journal.jsonl", "_data.csv"};
     std::map<std::string, SlotRecord> traces;
-    for (const std::string_view kind : kinds) {
-        const fs::path inner = folder.path() / (kind == kinds[2] ? "data" : "sessions");
+    for (const std::string_view end : {sidecarEnd, journalEnd, rowsEnd}) {
+        const fs::path inner = folder.path() / (end == rowsEnd ? "data" : "sessions");
         if (!fs::exists(inner))
             continue;
         for (const fs::directory_entry& entry : fs::directory_iterator(inner)) {
             const std::string name = entry.path().filename().string();
-            if (!name.ends_with(kind) || name.starts_with('.') || !entry.is_regular_file())
-                continue;
-            SlotRecord& trace = traces[name.substr(0, name.size() - kind.size())];
-            if (trace.slot > 0)
-                continue;
-            if (kind == kinds[2])
-                addFromRows(entry.path(), trace);
-            else
-                addFromJson(kind == kinds[0] ? readFile(entry.path()) : firstLine(entry.path()),
-                            trace);
+            if (name.ends_with(end) && !name.starts_with('.') && entry.is_regular_file())
+                addFromFile(entry.path(), end, traces[name.substr(0, name.size() - end.size())]);
         }
     }
     std::vector<SlotRecord> result;

@@ -117,6 +117,7 @@ std::vector<SlotRecord> lastOfEach(const std::vector<SlotRecord>& history) {
     for (const SlotRecord& record : history)
         slots[record.slot] = record;
     std::vector<SlotRecord> records;
+    records.reserve(slots.size());
     for (const auto& [slot, record] : slots)
         records.push_back(record);
     return records;

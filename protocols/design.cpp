@@ -174,7 +174,7 @@ void compare(const json& before, const json& now, const std::string& path,
     json keys = before;
     keys.update(now);
     for (const auto& [key, ignored] : keys.items()) {
-        const std::string inner = path.empty() ? key : path + "." + key;
+        const std::string inner = path.empty() ? key : fmt::format("{}.{}", path, key);
         if (!now.contains(key))
             found.push_back(inner + " is gone");
         else if (!before.contains(key))

@@ -60,12 +60,11 @@ TEST_F(ContinuityTest, TheSameDesignContinues) {
 
 TEST_F(ContinuityTest, AnotherDesignIsRefusedByName) {
     run("S01");
-    reopen("mask = 0.3", "mask = 3\nminimumView = 1.25");
+    reopen("mask = 0.3", "mask = 3\ngrey = 100");
     EXPECT_THAT([&] { checkContinues(folder, study); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("tiny.toml: the study's design has changed "
-                                                     "since S01 took part: trial.mask was 0.3, is "
-                                                     "now 3; "),
-                                           HasSubstr("trial.minimumView was"),
+                                                     "since S01 took part: trial.grey was 128, is "
+                                                     "now 100; trial.mask was 0.3, is now 3. "),
                                            HasSubstr("another data folder (--data DIR)"))));
     EXPECT_THAT([&] { run("S02"); }, ThrowsMessage<Error>(HasSubstr("for another design")));
 }

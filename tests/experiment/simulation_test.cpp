@@ -15,6 +15,7 @@
 
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <fstream>
 
 namespace obscura {
@@ -243,6 +244,30 @@ TEST_F(SimulationTest, ASignalEndsTheSessionAsLeavingDoes) {
     EXPECT_THAT(readFile(data.journal(session)), HasSubstr("\"reason\":\"ended by SIGTERM\""));
     EXPECT_EQ(nlohmann::json::parse(readFile(data.sidecar(session)))["end_reason"],
               "ended by SIGTERM");
+}
+
+// No terminal to ask on: refused without --yes. A slot that is in doubt is one completed, or one of
+// another machine.
+TEST_F(SimulationTest, VoidingACompletedSlotNeedsAWord) {
+    const Study tiny = study();
+    const DataFolder data(folder.path() / "data", tiny.protocol);
+    SimulatedObserver observer(tiny.protocol, 1, "S01");
+    ASSERT_TRUE(runSession(tiny, data, {"S01", 1, true}, observer));
+    const fs::path output = folder.path() / "output.txt";
+    const auto ledger = [&](const std::string& more) {
+        return std::system(fmt::format("'{}/obscura-experiment' ledger --protocol '{}' --data '{}' "
+                                       "--void 1 {} >'{}' 2>&1 </dev/null",
+                                       OBSCURA_BIN, tiny.protocol.path.string(),
+                                       (folder.path() / "data").string(), more, output.string())
+                               .c_str());
+    };
+    EXPECT_NE(ledger(""), 0);
+    EXPECT_THAT(readFile(output), AllOf(HasSubstr("slot 1 is that of participant S01, session 1, "
+                                                  "who has completed it"),
+                                        HasSubstr("with --yes if you are sure")));
+    EXPECT_EQ(Ledger(data.ledger()).records().front().state, SlotState::completed);
+    EXPECT_EQ(ledger("--yes"), 0);
+    EXPECT_EQ(Ledger(data.ledger()).records().front().state, SlotState::returned);
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
