@@ -24,7 +24,9 @@ void heedSignals() {
     for (const int signal : heeded) {
         struct sigaction before {};
         ::sigaction(signal, nullptr, &before);
-        if (before.sa_handler != SIG_IGN)
+        // Shells have programs in the background ignore SIGINT, yet whoever sends it to one means
+        // it.
+        if (signal != SIGHUP || before.sa_handler != SIG_IGN)
             ::sigaction(signal, &action, nullptr);
     }
 }

@@ -14,8 +14,7 @@ struct EndedBySignal {
     int exitStatus() const { return 128 + signal; }
 };
 
-// From now on these signals are only noted, and those that whoever started the program had it
-// ignore (nohup) stay ignored.
+// From now on these signals are only noted; SIGHUP stays ignored where it was (nohup).
 void heedSignals();
 
 // Throws EndedBySignal once a signal has been noted. Whatever waits calls it again and again.
