@@ -75,18 +75,49 @@ void removeSimulated(std::vector<Answer>& answers, SimulatedRows rule, LeftOut& 
         leftOut.real = static_cast<int>(std::erase_if(answers, std::not_fn(isSimulated)));
 }
 
-// Rows of one group must agree in the field.
-template <auto field>
-void requireOne(const std::vector<Answer>& answers, std::string_view column,
-                std::string_view option, std::string (*group)(const Response&)) {
-    std::map<std::string, const Answer*> firstOf;
+void removeRehearsals(Answers& answers) {
+    answers.leftOut.rehearsed = static_cast<int>(
+        std::erase_if(answers.counted, [](const Answer& answer) { return answer.row.rehearsal; }));
+    if (answers.counted.empty() && answers.leftOut.rehearsed > 0)
+        throw Error(fmt::format("expected answers of a study, found rehearsals only: {} rows in {} "
+                                "file(s), which do not count",
+                                answers.leftOut.rehearsed, answers.files));
+}
+
+// Texts may differ. Where a row is of a version that kept no design, the same protocol file proves
+// it the same.
+bool sameDesign(const Response& x, const Response& y) {
+    const bool known = !x.designSha256.empty() && !y.designSha256.empty();
+    return known ? x.designSha256 == y.designSha256 : x.protocolSha256 == y.protocolSha256;
+}
+
+void requireOneDesign(const std::vector<Answer>& answers) {
+    std::map<std::string, std::vector<const Answer*>> kinds; // by study, as they came
     for (const Answer& answer : answers) {
-        const Answer& first = *firstOf.try_emplace(group(answer.row), &answer).first->second;
-        if (answer.row.*field != first.row.*field)
-            refuse(answer, column,
-                   fmt::format("expected \"{}\" as in {}, found \"{}\"; {} pools them",
-                               first.row.*field, at(first), answer.row.*field, option));
+        auto& known = kinds[answer.row.studyId];
+        const auto alike = [&](const Answer* other) { return sameDesign(answer.row, other->row); };
+        if (!known.empty() && std::none_of(known.begin(), known.end(), alike))
+            refuse(answer, "design_sha256",
+                   fmt::format("a design of study \"{}\" other than in {} (protocol {:.12}..., not "
+                               "{:.12}...); --allow-mixed-protocols pools them",
+                               answer.row.studyId, at(*known.front()), answer.row.protocolSha256,
+                               known.front()->row.protocolSha256));
+        const auto equal = [&](const Answer* other) {
+            return answer.row.designSha256 == other->row.designSha256 &&
+                   answer.row.protocolSha256 == other->row.protocolSha256;
+        };
+        if (std::none_of(known.begin(), known.end(), equal))
+            known.push_back(&answer);
     }
+}
+
+void requireOneStudy(const std::vector<Answer>& answers) {
+    for (const Answer& answer : answers)
+        if (const Answer& first = answers.front(); answer.row.studyId != first.row.studyId)
+            refuse(answer, "study_id",
+                   fmt::format("expected \"{}\" as in {}, found \"{}\"; --allow-mixed-studies "
+                               "pools them",
+                               first.row.studyId, at(first), answer.row.studyId));
 }
 
 using Key = std::vector<std::string>;
@@ -138,6 +169,7 @@ Answers readAll(const std::vector<fs::path>& files, bool lenient) {
                 {std::move(read.rows[i]), {file.string(), read.lines[i], 0, {}}});
         answers.bad.insert(answers.bad.end(), read.bad.begin(), read.bad.end());
         ++answers.files;
+        answers.earlierFiles += read.version < Response().schemaVersion;
     }
     return answers;
 }
@@ -147,13 +179,12 @@ Answers readAll(const std::vector<fs::path>& files, bool lenient) {
 Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules) {
     Answers answers = readAll(filesOf(data), rules.lenient);
     std::vector<Answer>& rows = answers.counted;
+    removeRehearsals(answers);
     removeSimulated(rows, rules.simulated, answers.leftOut);
     if (!rules.mixedStudies)
-        requireOne<&Response::studyId>(rows, "study_id", "--allow-mixed-studies",
-                                       [](const Response&) { return std::string(); });
+        requireOneStudy(rows);
     if (!rules.mixedProtocols)
-        requireOne<&Response::protocolSha256>(rows, "protocol_sha256", "--allow-mixed-protocols",
-                                              [](const Response& row) { return row.studyId; });
+        requireOneDesign(rows);
     answers.leftOut.duplicates = removeDuplicates(rows, rules.duplicates);
     answers.leftOut.practice = removeKind(rows, "practice");
     answers.leftOut.catches = removeKind(rows, "catch");

@@ -23,7 +23,7 @@ struct AnswerRules {
     // Rows of programs among rows of people. `refuse` accepts files that are all of one kind.
     SimulatedRows simulated = SimulatedRows::refuse;
     bool mixedStudies = false;   // pool several study_id
-    bool mixedProtocols = false; // pool several protocol_sha256 of one study
+    bool mixedProtocols = false; // pool several designs of one study
     bool duplicates = false;     // count the first of rows for one trial, leave out the others
     // A trial during which the window lost the screen was still answered: it is counted and
     // reported, unless this is false.
@@ -33,7 +33,7 @@ struct AnswerRules {
 
 struct LeftOut {
     int practice = 0, catches = 0, interrupted = 0, duplicates = 0;
-    int simulated = 0, real = 0;
+    int simulated = 0, real = 0, rehearsed = 0;
 };
 
 struct Answers {
@@ -41,6 +41,7 @@ struct Answers {
     LeftOut leftOut;
     std::vector<BadRow> bad; // skipped because of `lenient`
     int files = 0;
+    int earlierFiles = 0; // of those, in the format of an earlier version
 };
 
 // `data`: CSV files, or folders of them (a study's folder with its data/ in it). At least one row

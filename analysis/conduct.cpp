@@ -108,6 +108,7 @@ Conduct conductOf(const Answers& answers) {
     conduct.files = answers.files;
     conduct.trials = static_cast<int>(counted.size());
     conduct.leftOut = answers.leftOut;
+    conduct.earlierFiles = answers.earlierFiles;
     conduct.bad = answers.bad;
     countPeople(counted, conduct);
     countSessions(counted, conduct);
@@ -140,14 +141,16 @@ std::string trials(const Conduct& c) {
     if (c.interrupted > 0)
         text +=
             fmt::format(", {} of them interrupted (the window lost the keyboard)", c.interrupted);
+    if (c.earlierFiles > 0)
+        text += fmt::format("; {} of the files are of an earlier version, which marked no "
+                            "rehearsals: taken for the study's",
+                            c.earlierFiles);
     const LeftOut& out = c.leftOut;
-    const std::pair<int, const char*> parts[] = {{out.practice, "practice"},
-                                                 {out.catches, "catch"},
-                                                 {out.interrupted, "interrupted"},
-                                                 {out.duplicates, "answered twice"},
-                                                 {out.simulated, "simulated"},
-                                                 {out.real, "not simulated"},
-                                                 {static_cast<int>(c.bad.size()), "unreadable"}};
+    const std::pair<int, const char*> parts[] = {
+        {out.practice, "practice"},       {out.catches, "catch"},
+        {out.interrupted, "interrupted"}, {out.duplicates, "answered twice"},
+        {out.simulated, "simulated"},     {out.real, "not simulated"},
+        {out.rehearsed, "rehearsed"},     {static_cast<int>(c.bad.size()), "unreadable"}};
     std::string list;
     for (const auto& [number, kind] : parts)
         if (number > 0)

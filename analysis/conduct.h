@@ -32,6 +32,7 @@ struct Conduct {
     int incomplete = 0; // sessions with fewer trials than the longest one
     int mostVotes = 0;  // of one participant on one condition; the tests assume 1
     LeftOut leftOut;
+    int earlierFiles = 0; // of an earlier version's format
     std::vector<BadRow> bad;
 
     int secondChosen = 0;               // trials in which the image shown second was chosen

@@ -61,7 +61,7 @@ void declareRules(CLI::App& app, AnswerRules& rules) {
         ->check(CLI::IsMember({"refuse", "exclude", "only", "include"}));
     app.add_flag("--allow-mixed-studies", rules.mixedStudies, "Pool rows of several studies");
     app.add_flag("--allow-mixed-protocols", rules.mixedProtocols,
-                 "Pool rows of several versions of the protocol file");
+                 "Pool rows of several designs of a study; other texts are no other design");
     app.add_flag("--allow-duplicates", rules.duplicates,
                  "Where a trial has several rows, count the first and leave out the others");
     app.add_flag_callback(

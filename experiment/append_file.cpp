@@ -10,6 +10,7 @@
 
 #include <cassert>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 
@@ -40,16 +41,32 @@ bool writeAll(int descriptor, std::string_view text) {
 
 } // namespace
 
-AppendFile AppendFile::create(const fs::path& path) {
-    return {path, O_CREAT | O_EXCL, "expected to create a new file"};
+// Written under another name first, for a program may be killed between making a file and writing
+// its first line.
+AppendFile AppendFile::create(const fs::path& path, std::string_view lines) {
+    const fs::path unfinished =
+        path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid());
+    writeFile(unfinished, lines);
+    if (::renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0)
+        return {path, 0, "cannot be opened"};
+    const int reason = errno;
+    fs::remove(unfinished);
+    if (reason == EEXIST)
+        throw Error({path.string(), 0, 0, {}},
+                    "expected to create a new file, found one of this name");
+    // A file system that cannot rename without replacing (NFS).
+    AppendFile file(path, O_CREAT | O_EXCL, "expected to create a new file");
+    if (!lines.empty())
+        file.append(lines);
+    return file;
 }
 
-AppendFile AppendFile::openLocked(const fs::path& path) {
+AppendFile AppendFile::openLocked(const fs::path& path, IsWhole whole) {
     AppendFile file(path, O_CREAT, "cannot be opened");
     while (::flock(file.descriptor_, LOCK_EX) != 0)
         if (errno != EINTR)
             file.fail("cannot be locked");
-    file.cutTornLine();
+    file.mendLastLine(whole);
     return file;
 }
 
@@ -82,10 +99,14 @@ void AppendFile::append(std::string_view lines) {
                      lines.substr(0, lines.size() - 1)));
 }
 
-void AppendFile::cutTornLine() {
+void AppendFile::mendLastLine(IsWhole whole) {
     const std::string content = readFile(path_);
     const std::size_t end = content.rfind('\n') + 1; // npos + 1 is 0: no line at all
-    if (end != content.size() && ::ftruncate(descriptor_, static_cast<off_t>(end)) != 0)
+    if (end == content.size())
+        return;
+    if (whole(std::string_view(content).substr(end)))
+        append("\n");
+    else if (::ftruncate(descriptor_, static_cast<off_t>(end)) != 0)
         fail("cannot be mended");
 }
 

@@ -9,12 +9,16 @@ namespace obscura {
 // line that cannot be written to its end is taken out again, so a full disk leaves no half line.
 class AppendFile {
   public:
-    // A new file. An Error when one of that name is there: nothing is ever overwritten.
-    static AppendFile create(const std::filesystem::path& path);
+    // A new file that begins with these lines, and is never seen without them. An Error when one
+    // of that name is there: nothing is ever overwritten.
+    static AppendFile create(const std::filesystem::path& path, std::string_view lines = {});
 
     // An old file or a new one, locked against every other process until this object dies; waits
-    // for the lock. A last line without its end (power was cut while it was written) is removed.
-    static AppendFile openLocked(const std::filesystem::path& path);
+    // for the lock. A last line without its end is given one when it is `whole`; else (power was
+    // cut while it was written) it is removed.
+    using IsWhole = bool (*)(std::string_view line);
+    static AppendFile openLocked(
+        const std::filesystem::path& path, IsWhole whole = [](std::string_view) { return false; });
 
     AppendFile(AppendFile&& other) noexcept;
     AppendFile& operator=(AppendFile&&) = delete;
@@ -24,7 +28,7 @@ class AppendFile {
 
   private:
     AppendFile(std::filesystem::path path, int flags, std::string_view what);
-    void cutTornLine();
+    void mendLastLine(IsWhole whole);
     [[noreturn]] void fail(std::string_view what) const;
 
     std::filesystem::path path_;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace obscura {
 
@@ -22,9 +23,9 @@ bool isAlphanumeric(char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
 }
 
-ordered_json variables() {
+ordered_json variables(std::span<const Column> columns = responseColumns()) {
     ordered_json list = ordered_json::array();
-    for (const Column& column : responseColumns())
+    for (const Column& column : columns)
         list.push_back({{"@type", "PropertyValue"},
                         {"name", column.name},
                         {"description", column.description},
@@ -57,20 +58,52 @@ std::string readme(const std::string& title) {
         title);
 }
 
+std::vector<std::string> namesOf(const ordered_json& list) {
+    std::vector<std::string> names;
+    for (const ordered_json& variable : list)
+        names.push_back(variable.is_object() ? variable.value("name", "") : "");
+    return names;
+}
+
 // Users add authors and a licence to the description; only its columns are ours to check.
 void checkDescription(const fs::path& path) {
-    const auto json = ordered_json::parse(readFile(path), nullptr, false);
-    if (!json.is_object() || !json.contains("variableMeasured") ||
-        json["variableMeasured"] != variables())
+    auto json = ordered_json::parse(readFile(path), nullptr, false);
+    const bool described = json.is_object() && json.contains("variableMeasured");
+    if (described && json["variableMeasured"] == variables())
+        return;
+    if (!described || namesOf(json["variableMeasured"]) != namesOf(variables(responseColumns(1))))
         throw Error({path.string(), 0, 0, "variableMeasured"},
                     "the columns described are not those this version writes; use a data folder "
                     "of its own for each version: --data DIR");
+    json["variableMeasured"] = variables();
+    writeFile(path, json.dump(2) + "\n");
+    fmt::print(stderr, "{}: columns of this version added; files of earlier sessions lack them\n",
+               path.string());
+}
+
+// Of a name's letters; systems whose files know no capitals take such names for one.
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    return text;
+}
+
+// A file beside `path` whose name differs in capitals only; "" when there is none.
+std::string twinOf(const fs::path& path) {
+    if (fs::exists(path.parent_path()))
+        for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path())) {
+            const std::string name = entry.path().filename().string();
+            if (name != path.filename() && lowerCase(name) == lowerCase(path.filename().string()))
+                return name;
+        }
+    return {};
 }
 
 } // namespace
 
-DataFolder::DataFolder(const fs::path& data, const Protocol& protocol)
-    : root_(data / protocol.name), title_(protocol.title) {
+DataFolder::DataFolder(const fs::path& data, const Protocol& protocol, bool rehearsals)
+    : root_((rehearsals ? data / "rehearsals" : data) / protocol.name),
+      title_(rehearsals ? "Rehearsals of " + protocol.title : protocol.title) {
     std::copy_if(protocol.name.begin(), protocol.name.end(), std::back_inserter(study_),
                  isAlphanumeric); // Psych-DS: no hyphen within a value
 }
@@ -100,6 +133,8 @@ fs::path DataFolder::journal(const SessionId& session) const {
     return root_ / "sessions" / (stem(session) + "_journal.jsonl");
 }
 
+fs::path DataFolder::design() const { return root_ / "sessions" / "design.json"; }
+
 fs::path DataFolder::sidecar(const SessionId& session) const {
     return root_ / "sessions" / (stem(session) + "_session.json");
 }
@@ -114,6 +149,8 @@ std::string objection(const DataFolder& folder, const SessionId& session) {
     if (fs::exists(folder.rows(session)) || fs::exists(folder.journal(session)))
         return fmt::format("there are data of {}, session {}; another id, or another session", id,
                            session.number);
+    if (const std::string twin = twinOf(folder.journal(session)); !twin.empty())
+        return fmt::format("there are data of the same id in other letters ({}); another id", twin);
     return {};
 }
 

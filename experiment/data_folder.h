@@ -17,18 +17,27 @@ namespace obscura {
 //   <data>/<study>/sessions/study-..._journal.jsonl   what began and ended when
 //   <data>/<study>/sessions/study-..._session.json    display, order, how the session went
 //   <data>/<study>/sessions/ledger.jsonl              who has which slot
+//   <data>/<study>/sessions/design.json               what all of them were shown
+//
+// and, apart from them, so that nothing counts them: <data>/rehearsals/<study>/ with the same in
+// it but ledger and design.
 class DataFolder {
   public:
-    DataFolder(const std::filesystem::path& data, const Protocol& protocol);
+    DataFolder(const std::filesystem::path& data, const Protocol& protocol,
+               bool rehearsals = false);
 
-    // Makes the folders, the description and the README where they are missing. An Error when a
-    // description is there that speaks of other columns.
+    // Makes the folders, the description and the README where they are missing; adds to a
+    // description of an earlier version the columns that came later. An Error when a description is
+    // there that speaks of other columns.
     void prepare() const;
+
+    const std::filesystem::path& path() const { return root_; }
 
     std::filesystem::path rows(const SessionId& session) const;
     std::filesystem::path journal(const SessionId& session) const;
     std::filesystem::path sidecar(const SessionId& session) const;
     std::filesystem::path ledger() const;
+    std::filesystem::path design() const;
 
   private:
     std::string stem(const SessionId& session) const;

@@ -17,10 +17,14 @@ namespace obscura {
 
 namespace {
 
+using nlohmann::json;
+
 constexpr std::array<std::string_view, 3> stateNames = {"reserved", "completed", "void"};
+constexpr int formatVersion = 2; // 1 had no owner, no design and no version
 
 std::string line(const SlotRecord& record) {
-    const nlohmann::ordered_json json = {
+    nlohmann::ordered_json entry = {
+        {"format_version", formatVersion},
         {"slot", record.slot},
         {"state", nameOf(record.state)},
         {"participant", record.session.participant},
@@ -30,43 +34,90 @@ std::string line(const SlotRecord& record) {
         {"process", record.process},
         {"time", record.time},
     };
-    return json.dump() + "\n";
+    if (record.owner)
+        entry["owner"] = record.owner->text();
+    if (!record.design.empty())
+        entry["design_sha256"] = record.design;
+    return entry.dump() + "\n";
+}
+
+int wholeNumber(const json& object, const char* key, int low, int high) {
+    const json& value = object.at(key);
+    if (!value.is_number_integer() || value < low || value > high)
+        throw Error(fmt::format("\"{}\": expected a whole number from {} to {}, found {}", key, low,
+                                high, value.dump()));
+    return value;
+}
+
+SlotState stateOf(const std::string& name) {
+    const auto found = std::find(stateNames.begin(), stateNames.end(), name);
+    if (found == stateNames.end())
+        throw Error(fmt::format("\"state\": expected one of {}, found \"{}\"",
+                                fmt::join(stateNames, ", "), name));
+    return static_cast<SlotState>(found - stateNames.begin());
 }
 
 SlotRecord parse(const std::string& text) {
-    const nlohmann::json json = nlohmann::json::parse(text);
+    constexpr int large = 2147483647;
+    const json object = json::parse(text);
+    if (object.contains("format_version"))
+        wholeNumber(object, "format_version", 1, formatVersion);
     SlotRecord record;
-    record.slot = json.at("slot");
-    const auto name =
-        std::find(stateNames.begin(), stateNames.end(), json.at("state").get<std::string>());
-    record.state = static_cast<SlotState>(name - stateNames.begin());
-    record.session = {json.at("participant"), json.at("session"), json.at("simulated")};
-    record.machine = json.at("machine");
-    record.process = json.at("process");
-    record.time = json.at("time");
-    if (record.slot < 1 || name == stateNames.end())
-        throw std::out_of_range("no such slot or state");
+    record.slot = wholeNumber(object, "slot", 1, highestSlot);
+    record.state = stateOf(object.at("state"));
+    record.session = {object.at("participant"), wholeNumber(object, "session", 1, large),
+                      object.at("simulated")};
+    record.machine = object.at("machine");
+    record.process = wholeNumber(object, "process", 0, large);
+    record.time = object.at("time");
+    if (object.contains("owner"))
+        record.owner = ProcessId::parse(object["owner"].get<std::string>());
+    record.design = object.value("design_sha256", "");
     return record;
 }
 
+// No beginning of a line is JSON: a last line without its end that is was written whole, and lost
+// its line feed to an editor.
+bool isWhole(std::string_view text) { return json::accept(text); }
+
+// Slots are given out one after the other, so the first mention of each comes after those of all
+// below it.
+void checkSequence(int slot, int highest, const Place& place) {
+    if (slot > highest + 1)
+        throw Error(place,
+                    fmt::format("expected slots up to {}, found {}: lines are missing before "
+                                "this one; restore them before running a participant",
+                                highest + 1, slot));
+}
+
 std::vector<SlotRecord> read(const std::filesystem::path& file) {
-    std::map<int, SlotRecord> slots;
+    std::vector<SlotRecord> records;
     std::istringstream lines(std::filesystem::exists(file) ? readFile(file) : "");
-    int number = 0;
-    for (std::string text;
-         std::getline(lines, text) && !lines.eof();) { // eof: a line being written
+    int number = 0, highest = 0;
+    for (std::string text; std::getline(lines, text);) {
         ++number;
+        if (lines.eof() && !isWhole(text))
+            break; // a line being written, or torn
         try {
-            const SlotRecord record = parse(text);
-            slots[record.slot] = record;
+            records.push_back(parse(text));
         } catch (const std::exception& error) {
             throw Error({file.string(), number, 0, {}},
                         fmt::format("expected a slot's state as this program writes it ({}); "
                                     "restore the line before running a participant",
                                     error.what()));
         }
+        checkSequence(records.back().slot, highest, {file.string(), number, 0, {}});
+        highest = std::max(highest, records.back().slot);
     }
+    return records;
+}
+
+std::vector<SlotRecord> lastOfEach(const std::vector<SlotRecord>& history) {
+    std::map<int, SlotRecord> slots;
+    for (const SlotRecord& record : history)
+        slots[record.slot] = record;
     std::vector<SlotRecord> records;
+    records.reserve(slots.size());
     for (const auto& [slot, record] : slots)
         records.push_back(record);
     return records;
@@ -80,59 +131,140 @@ int freeSlot(const std::vector<SlotRecord>& records) {
     return records.empty() ? 1 : records.back().slot + 1;
 }
 
+void checkFits(const std::vector<SlotRecord>& history, const SessionId& session,
+               const std::string& design, const Place& place) {
+    for (const SlotRecord& record : history) {
+        if (record.session.simulated != session.simulated)
+            throw Error(place, fmt::format("this folder holds {} participants; {} ones need a data "
+                                           "folder of their own: --data DIR",
+                                           session.simulated ? "real" : "simulated",
+                                           session.simulated ? "simulated" : "real"));
+        if (!record.design.empty() && !design.empty() && record.design != design)
+            throw Error(place, fmt::format("slot {} was claimed for another design of the study "
+                                           "({:.12}..., not {:.12}...); another design needs "
+                                           "another data folder (--data DIR) or another name",
+                                           record.slot, record.design, design));
+    }
+}
+
+enum class Holder {
+    none,    // not reserved
+    gone,    // its process has ended beyond doubt
+    here,    // runs on this machine
+    unknown, // on another machine, or named too poorly to tell
+};
+
+Holder holderOf(const SlotRecord& record) {
+    if (record.state != SlotState::reserved)
+        return Holder::none;
+    if (record.owner) {
+        if (isGone(*record.owner))
+            return Holder::gone;
+        const ProcessId self = ProcessId::current();
+        return record.owner->machine == self.machine && record.owner->boot == self.boot
+                   ? Holder::here
+                   : Holder::unknown;
+    }
+    const bool free = record.machine == machineName() && !processRuns(record.process);
+    return free ? Holder::gone : Holder::unknown;
+}
+
+bool isOurs(const SlotRecord& record) { return record.owner == ProcessId::current(); }
+
+void checkCompletes(const SlotRecord& record) {
+    if (!isOurs(record))
+        throw Error(fmt::format("slot {} was given back while this session ran, and is that of "
+                                "participant {} now; the rows of this session are kept",
+                                record.slot, record.session.participant));
+}
+
+void checkGivenBack(const SlotRecord& record) {
+    if (record.state == SlotState::returned)
+        throw Error(fmt::format("slot {} is void already", record.slot));
+    if (holderOf(record) == Holder::here && !isOurs(record))
+        throw Error(fmt::format("slot {} is in use: process {} is running participant {}; end that "
+                                "session first",
+                                record.slot, record.process, record.session.participant));
+}
+
 } // namespace
 
 std::string_view nameOf(SlotState state) { return stateNames[static_cast<std::size_t>(state)]; }
 
-std::vector<SlotRecord> Ledger::records() const { return read(file_); }
+std::vector<SlotRecord> Ledger::history() const { return read(file_); }
 
-int Ledger::claim(const SessionId& session) {
-    AppendFile file = AppendFile::openLocked(file_);
-    const std::vector<SlotRecord> records = read(file_);
-    if (!records.empty() && records.front().session.simulated != session.simulated)
-        throw Error({file_.string(), 0, 0, {}},
-                    fmt::format("this folder holds {} participants; {} ones need a data folder of "
-                                "their own: --data DIR",
-                                session.simulated ? "real" : "simulated",
-                                session.simulated ? "simulated" : "real"));
-    const int slot = freeSlot(records);
-    file.append(line({slot, SlotState::reserved, session, machineName(), utcNow(), processId()}));
+std::vector<SlotRecord> Ledger::records() const { return lastOfEach(history()); }
+
+int Ledger::claim(const SessionId& session, const std::string& design) {
+    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    const std::vector<SlotRecord> lines = history();
+    checkFits(lines, session, design, {file_.string(), 0, 0, {}});
+    const int slot = freeSlot(lastOfEach(lines));
+    file.append(line({slot, SlotState::reserved, session, machineName(), utcNow(), processId(),
+                      ProcessId::current(), design}));
     return slot;
 }
 
-void Ledger::complete(int slot) { change(slot, SlotState::completed); }
+void Ledger::complete(int slot) { change(slot, SlotState::completed, checkCompletes); }
 
-void Ledger::giveBack(int slot) { change(slot, SlotState::returned); }
+void Ledger::giveBack(int slot) { change(slot, SlotState::returned, checkGivenBack); }
 
-void Ledger::change(int slot, SlotState state) {
-    AppendFile file = AppendFile::openLocked(file_);
-    const std::vector<SlotRecord> records = read(file_);
-    const auto found = std::find_if(records.begin(), records.end(),
+void Ledger::restore(const std::vector<SlotRecord>& lost) {
+    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    std::string lines;
+    for (const SlotRecord& record : lost)
+        lines += line(record);
+    if (!lines.empty())
+        file.append(lines);
+}
+
+void Ledger::change(int slot, SlotState state, void (*check)(const SlotRecord&)) {
+    const Place place{file_.string(), 0, 0, {}};
+    if (!std::filesystem::exists(file_))
+        throw Error(place, fmt::format("slot {} was never claimed: there is no ledger", slot));
+    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    const std::vector<SlotRecord> slots = records();
+    const auto found = std::find_if(slots.begin(), slots.end(),
                                     [&](const SlotRecord& record) { return record.slot == slot; });
-    if (found == records.end())
-        throw Error({file_.string(), 0, 0, {}}, fmt::format("slot {} was never claimed", slot));
+    if (found == slots.end())
+        throw Error(place, fmt::format("slot {} was never claimed; {}", slot,
+                                       slots.empty()
+                                           ? std::string("the ledger is empty")
+                                           : fmt::format("slots 1 to {} were", slots.back().slot)));
     SlotRecord record = *found;
-    if (record.state == SlotState::reserved && record.process != processId() &&
-        record.machine == machineName() && !isOrphan(record))
-        throw Error({file_.string(), 0, 0, {}},
-                    fmt::format("slot {} is in use: process {} is running participant {}; end that "
-                                "session first",
-                                slot, record.process, record.session.participant));
+    try {
+        check(record);
+    } catch (const Error& error) {
+        throw Error(place, error.what());
+    }
     record.state = state;
     record.time = utcNow();
     file.append(line(record));
 }
 
-bool isOrphan(const SlotRecord& record) {
-    return record.state == SlotState::reserved && record.machine == machineName() &&
-           !processRuns(record.process);
+bool isOrphan(const SlotRecord& record) { return holderOf(record) == Holder::gone; }
+
+std::string doubtOf(const SlotRecord& record) {
+    const std::string whose =
+        fmt::format("slot {} is that of participant {}, session {}", record.slot,
+                    record.session.participant, record.session.number);
+    if (record.state == SlotState::completed)
+        return whose + ", who has completed it: the rows stay, and another participant will be "
+                       "given the same order";
+    if (holderOf(record) == Holder::unknown)
+        return fmt::format("{}, on {}: whether that session still runs cannot be seen from here",
+                           whose, record.machine);
+    return {};
 }
 
 Claim::~Claim() {
     if (completed_)
         return;
     try {
-        ledger_.giveBack(slot_);
+        // A person may have given it back, and another may have it.
+        for (const SlotRecord& record : ledger_.records())
+            if (record.slot == slot_ && record.state == SlotState::reserved && isOurs(record))
+                ledger_.giveBack(slot_);
     } catch (const std::exception& error) { // a destructor must not throw; the slot stays reserved
         fmt::print(stderr, "slot {} could not be given back: {}\n", slot_, error.what());
     }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "protocols/process.h"
+
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,18 +15,23 @@ struct SessionId {
     std::string participant; // letters and digits
     int number = 1;
     bool simulated = false;
+    bool rehearsal = false; // claims no slot
 };
 
 enum class SlotState { reserved, completed, returned };
 std::string_view nameOf(SlotState state); // "void" for returned: what experimenters call it
 
-// What became of a slot last.
+constexpr int highestSlot = 1000000;
+
+// What became of a slot.
 struct SlotRecord {
     int slot = 0; // from 1
     SlotState state = SlotState::reserved;
     SessionId session;
     std::string machine, time;
     int process = 0;
+    std::optional<ProcessId> owner; // nothing in lines of version 1
+    std::string design;             // SHA-256 of Study::design(); "" in lines of version 1
 };
 
 // Hands out the slots of the ordering scheme, so that the design stays balanced whatever happens.
@@ -33,19 +41,23 @@ struct SlotRecord {
 // The rules. claim() gives the lowest returned slot, or, if there is none, the first never used.
 // A session that ends in order before its last trial returns its slot. A session whose process
 // died keeps it: the program cannot know what the participant has seen, so a person decides
-// (obscura-experiment ledger --void N). Simulated and real participants never share a ledger.
+// (obscura-experiment ledger --void N). Simulated and real participants never share a ledger, nor
+// do two designs.
 class Ledger {
   public:
     explicit Ledger(std::filesystem::path file) : file_(std::move(file)) {}
 
+    std::vector<SlotRecord> history() const; // every line; an Error at the first damaged one
     std::vector<SlotRecord> records() const; // by slot, each slot's last change
 
-    int claim(const SessionId& session);
-    void complete(int slot);
+    int claim(const SessionId& session, const std::string& design = {});
+    void complete(int slot); // Error when it is another's by now
     void giveBack(int slot); // Error when it was never claimed, or its process still runs here
+    // Lines of sessions that it has lost, in the order in which they are to stand.
+    void restore(const std::vector<SlotRecord>& lost);
 
   private:
-    void change(int slot, SlotState state);
+    void change(int slot, SlotState state, void (*check)(const SlotRecord&));
 
     std::filesystem::path file_;
 };
@@ -53,11 +65,15 @@ class Ledger {
 // Reserved on this machine by a process that is no more.
 bool isOrphan(const SlotRecord& record);
 
+// Why only a person can say that the slot may be given back: it was completed, or nobody here can
+// know whether its session still runs. "" when there is no doubt.
+std::string doubtOf(const SlotRecord& record);
+
 // Holds a slot while a session runs; gives it back unless the session completes.
 class Claim {
   public:
-    Claim(Ledger& ledger, const SessionId& session)
-        : ledger_(ledger), slot_(ledger.claim(session)) {}
+    Claim(Ledger& ledger, const SessionId& session, const std::string& design = {})
+        : ledger_(ledger), slot_(ledger.claim(session, design)) {}
     ~Claim();
     Claim(const Claim&) = delete;
     Claim& operator=(const Claim&) = delete;

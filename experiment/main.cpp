@@ -1,20 +1,26 @@
+#include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
 #include "experiment/presenter.h"
 #include "experiment/session.h"
+#include "experiment/signals.h"
 #include "protocols/error.h"
 #include "protocols/progress.h"
 #include "protocols/version.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <optional>
 #include <string>
 
 namespace obscura {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -24,12 +30,12 @@ struct Arguments {
     int session = 1;
     int monitor = 1;
     std::string windowSize; // with --windowed; "" for the usual one
-    bool windowed = false, acceptUntimed = false, listMonitors = false;
+    bool windowed = false, rehearse = false, acceptUntimed = false, listMonitors = false;
     bool simulate = false;
     int simulated = 0; // how many; 0 as the protocol plans
     std::optional<std::uint64_t> seed;
-    bool ledger = false;
     int returned = 0; // slot, with ledger --void
+    bool yes = false, restore = false;
 };
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -51,10 +57,15 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->type_name("N")
         ->capture_default_str();
     app.add_flag("--list-monitors", arguments.listMonitors, "Name the monitors, and end");
-    app.add_option("--windowed", arguments.windowSize,
-                   "Rehearse in a window, of 1280x800 unless a size is given")
-        ->type_name("WxH")
-        ->expected(0, 1);
+    CLI::Option* windowed =
+        app.add_option("--windowed", arguments.windowSize,
+                       "Rehearse in a window, of 1280x800 unless a size is given")
+            ->type_name("WxH")
+            ->expected(0, 1);
+    CLI::Option* rehearse =
+        app.add_flag("--rehearse", arguments.rehearse,
+                     "Try the study out: takes no slot, and its rows go to rehearsals/ in the data "
+                     "folder, marked as such; --windowed always does");
     app.add_flag("--accept-untimed", arguments.acceptUntimed,
                  "Leave out the warning on displays without a vertical blank");
     CLI::Option* simulate =
@@ -63,7 +74,9 @@ void declare(CLI::App& app, Arguments& arguments) {
                        "plans when N is left out")
             ->type_name("N")
             ->expected(0, 1)
-            ->check(CLI::Range(1, 100000));
+            ->check(CLI::Range(1, 100000))
+            ->excludes(windowed)
+            ->excludes(rehearse);
     app.add_option("--seed", arguments.seed,
                    "Seed of the simulated participants; the protocol's when not given")
         ->type_name("S")
@@ -79,9 +92,13 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
     ledger
         ->add_option("--void", arguments.returned,
-                     "Give slot N back, so that the next participant gets it")
+                     "Give slot N back, so that the next participant gets it; asks when the slot "
+                     "was completed, or is held by another machine")
         ->type_name("N")
-        ->check(CLI::Range(1, 1000000));
+        ->check(CLI::Range(1, highestSlot));
+    ledger->add_flag("--yes", arguments.yes, "Answer yes to what --void asks");
+    ledger->add_flag("--restore", arguments.restore,
+                     "Add the sessions beside a lost or shortened ledger that it does not know");
     app.footer(
         "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
         "end.\n"
@@ -102,20 +119,49 @@ void print(const SlotRecord& record) {
                isOrphan(record) ? "  its process has died; --void gives the slot back" : "");
 }
 
+bool confirm(const std::string& doubt) {
+    if (!::isatty(STDIN_FILENO))
+        throw Error(doubt + ". Give it back with --yes if you are sure");
+    fmt::print(stderr, "{}. Give it back? [y/N] ", doubt);
+    std::string answer;
+    std::getline(std::cin, answer);
+    return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+// False when the person thinks better of it.
+bool giveBack(Ledger& ledger, const Arguments& arguments) {
+    for (const SlotRecord& record : ledger.records())
+        if (record.slot == arguments.returned && !arguments.yes)
+            if (const std::string doubt = doubtOf(record); !doubt.empty() && !confirm(doubt))
+                return false;
+    ledger.giveBack(arguments.returned);
+    return true;
+}
+
 int editLedger(const Arguments& arguments) {
-    const Protocol protocol = readProtocol(arguments.protocol);
-    Ledger ledger(DataFolder(arguments.data, protocol).ledger());
-    if (arguments.returned)
-        ledger.giveBack(arguments.returned);
+    const DataFolder folder(arguments.data, readProtocol(arguments.protocol));
+    Ledger ledger(folder.ledger());
+    if (arguments.restore)
+        ledger.restore(lostFromLedger(folder));
+    const bool done = arguments.returned == 0 || giveBack(ledger, arguments);
     for (const SlotRecord& record : ledger.records())
         print(record);
-    return 0;
+    for (const SlotRecord& record : lostFromLedger(folder))
+        fmt::print(stderr, "obscura-experiment: slot {} of {} is missing; --restore adds it\n",
+                   record.slot, record.session.participant);
+    return done ? 0 : 1;
+}
+
+void checkFolder(const DataFolder& folder, const Study& study) {
+    if (const std::string unknown = checkContinues(folder, study); !unknown.empty())
+        fmt::print(stderr, "obscura-experiment: {}\n", unknown);
 }
 
 int simulate(const Arguments& arguments, const Study& study) {
     verifyStimuli(study.manifest);
     const Protocol& protocol = study.protocol;
     const DataFolder folder(arguments.data, protocol);
+    checkFolder(folder, study);
     const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
     Progress progress("simulated participants", count);
     for (int i = 1; i <= count; ++i) {
@@ -141,7 +187,7 @@ gl::WindowOptions::Size parseSize(const std::string& text) {
 }
 
 gl::WindowOptions windowOptions(const Arguments& arguments) {
-    gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt};
+    gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt, throwIfEnded};
     if (arguments.windowed)
         options.windowed = arguments.windowSize.empty() ? gl::WindowOptions::Size{1280, 800}
                                                         : parseSize(arguments.windowSize);
@@ -156,9 +202,10 @@ std::string warning(const Arguments& arguments, const Refresh& refresh) {
                    "clock at 60 Hz, rows are marked timestamp_source none: not suitable for data "
                    "collection.\n",
                    refresh.doubt);
-        return arguments.acceptUntimed ? "" : "Untimed display: not suitable for data collection";
+        if (!arguments.acceptUntimed)
+            return "Untimed display: not suitable for data collection";
     }
-    return arguments.windowed ? "Rehearsal in a window: not suitable for data collection" : "";
+    return arguments.rehearse ? "Rehearsal: answers do not count" : "";
 }
 
 void reportOrphans(const DataFolder& folder) {
@@ -172,14 +219,26 @@ void reportOrphans(const DataFolder& folder) {
 }
 
 int present(const Arguments& arguments, const Study& study) {
-    const DataFolder folder(arguments.data, study.protocol);
+    const DataFolder folder(arguments.data, study.protocol, arguments.rehearse);
+    const auto sessionOf = [&](const std::string& id) {
+        SessionId session{id, arguments.session, false, arguments.rehearse};
+        while (session.rehearsal && fs::exists(folder.journal(session)))
+            ++session.number; // people rehearse more than once
+        return session;
+    };
     const auto problemWith = [&](const std::string& id) {
-        return objection(folder, {id, arguments.session, false});
+        return objection(folder, sessionOf(id));
     };
     if (!arguments.participant.empty())
         if (const std::string problem = problemWith(arguments.participant); !problem.empty())
             throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
-    reportOrphans(folder);
+    if (arguments.rehearse) {
+        fmt::print(stderr,
+                   "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
+    } else {
+        checkFolder(folder, study);
+        reportOrphans(folder);
+    }
 
     Display display(windowOptions(arguments), study.protocol.trial.grey);
     Presenter presenter(display, study, warning(arguments, display.refresh()));
@@ -188,11 +247,12 @@ int present(const Arguments& arguments, const Study& study) {
                                               : std::optional(arguments.participant);
     if (!id)
         return 0;
-    const SessionId session{*id, arguments.session, false};
+    const SessionId session = sessionOf(*id);
     const bool completed = runSession(study, folder, session, presenter);
     fmt::print("{}: {}\n", folder.rows(session).string(),
-               completed ? "complete"
-                         : "ended before the last trial; its slot has been given back");
+               completed            ? "complete"
+               : arguments.rehearse ? "ended before the last trial"
+                                    : "ended before the last trial; its slot has been given back");
     return 0;
 }
 
@@ -205,6 +265,7 @@ int run(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     arguments.simulate = app.count("--simulate") > 0;
     arguments.windowed = app.count("--windowed") > 0;
+    arguments.rehearse |= arguments.windowed;
 
     if (arguments.listMonitors)
         return listMonitors();
@@ -212,8 +273,15 @@ int run(int argc, char** argv) {
         return editLedger(arguments);
     if (arguments.protocol.empty() || arguments.stimuli.empty())
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
-    const Study study = openStudy(arguments.protocol, arguments.stimuli);
-    return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
+    heedSignals();
+    try {
+        const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
+    } catch (const EndedBySignal& ended) {
+        fmt::print(stderr, "obscura-experiment: ended by {}; answers so far are kept\n",
+                   ended.name());
+        return ended.exitStatus();
+    }
 }
 
 } // namespace

@@ -19,14 +19,14 @@ std::string entry(std::string_view event, const ordered_json& details) {
 } // namespace
 
 Recorder::Recorder(const DataFolder& folder, const SessionId& session, int slot)
-    : rows_(AppendFile::create(folder.rows(session))),
-      journal_(AppendFile::create(folder.journal(session))) {
-    rows_.append(responseHeader());
-    journal_.append(entry("session_started", {{"participant", session.participant},
-                                              {"session", session.number},
-                                              {"simulated", session.simulated},
-                                              {"slot", slot}}));
-}
+    : rows_(AppendFile::create(folder.rows(session), responseHeader())),
+      journal_(AppendFile::create(folder.journal(session),
+                                  entry("session_started", {{"format_version", 2},
+                                                            {"participant", session.participant},
+                                                            {"session", session.number},
+                                                            {"simulated", session.simulated},
+                                                            {"rehearsal", session.rehearsal},
+                                                            {"slot", slot}}))) {}
 
 void Recorder::trialStarted(int trial, const std::string& condition) {
     journal_.append(entry("trial_started", {{"trial", trial}, {"condition", condition}}));

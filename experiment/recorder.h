@@ -15,7 +15,7 @@ namespace obscura {
 // participant looked; a journal without session_ended is a crash.
 class Recorder {
   public:
-    // New files; an Error when this session has any.
+    // New files; an Error when this session has any. `slot`: whose order is shown.
     Recorder(const DataFolder& folder, const SessionId& session, int slot);
 
     void trialStarted(int trial, const std::string& condition);

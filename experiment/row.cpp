@@ -20,6 +20,8 @@ Response identity(const Context& context, const Upcoming& trial) {
     row.participantId = context.session.participant;
     row.sessionId = fmt::format("{}", context.session.number);
     row.simulated = context.session.simulated;
+    row.rehearsal = context.session.rehearsal;
+    row.designSha256 = context.designSha256;
     row.slotId = context.assignment.slot;
     row.squareId = context.assignment.square;
     row.squareRow = context.assignment.row;

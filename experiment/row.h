@@ -15,6 +15,7 @@ struct Context {
     const SessionId& session;
     const Assignment& assignment;
     const Refresh& refresh;
+    std::string designSha256; // of Study::design()
 };
 
 // A trial's outcome as the row that is kept of it.

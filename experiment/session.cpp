@@ -1,11 +1,15 @@
 #include "experiment/session.h"
 
+#include "experiment/continuity.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
 #include "experiment/sidecar.h"
+#include "experiment/signals.h"
 #include "protocols/files.h"
 
 #include <nlohmann/json.hpp>
+
+#include <optional>
 
 namespace obscura {
 
@@ -19,6 +23,7 @@ namespace {
 bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int trial,
           const std::string& condition) {
     for (;;) {
+        throwIfEnded();
         switch (machine.next()) {
         case TrialMachine::Next::journal:
             recorder.trialStarted(trial, condition);
@@ -43,13 +48,10 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
     }
 }
 
-struct Played {
-    bool completed = false;
-    std::vector<double> maskIntervals; // of all trials
-};
-
-Played playAll(const Context& context, Observer& observer, Recorder& recorder) {
-    Played played;
+// All trials, or those until the person left: true when all were answered. Adds to the intervals of
+// the masks.
+bool playAll(const Context& context, Observer& observer, Recorder& recorder,
+             std::vector<double>& maskIntervals) {
     const auto& order = context.assignment.order;
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Upcoming trial{static_cast<int>(i) + 1, static_cast<int>(order.size()), order[i],
@@ -58,41 +60,58 @@ Played playAll(const Context& context, Observer& observer, Recorder& recorder) {
         observer.prepare(trial);
         if (!play(machine, observer, recorder, trial.index,
                   context.study.pair(trial.condition).condition))
-            return played;
+            return false;
         recorder.record(makeRow(context, trial, machine.record()));
         const auto& intervals = machine.record().maskIntervals;
-        played.maskIntervals.insert(played.maskIntervals.end(), intervals.begin(), intervals.end());
+        maskIntervals.insert(maskIntervals.end(), intervals.begin(), intervals.end());
     }
-    played.completed = true;
-    return played;
+    return true;
 }
 
 } // namespace
 
 bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
                 Observer& observer) {
+    throwIfEnded();
     folder.prepare();
     Ledger ledger(folder.ledger());
-    Claim claim(ledger, session);
+    std::optional<Claim> claim;
+    const std::string designSha256 = sha256(study.design());
+    if (!session.rehearsal) {
+        claim.emplace(ledger, session, designSha256);
+        keepDesign(folder, study);
+    }
     const Assignment assignment =
         assign(study.protocol.ordering.scheme, static_cast<int>(study.protocol.conditions.size()),
-               study.protocol.seed, claim.slot());
+               study.protocol.seed, claim ? claim->slot() : 1);
     const Refresh refresh = observer.refresh();
-    const Context context{study, session, assignment, refresh};
-    Recorder recorder(folder, session, claim.slot());
+    const Context context{study, session, assignment, refresh, designSha256};
+    Recorder recorder(folder, session, assignment.slot);
     ordered_json sidecar = circumstances(context, observer);
     writeFile(folder.sidecar(session), sidecar.dump(2) + "\n");
 
-    const Played played = observer.instruct() ? playAll(context, observer, recorder) : Played{};
-    const std::string reason = played.completed ? "completed" : "left before the last trial";
+    bool completed = false;
+    std::string reason = "left before the last trial";
+    std::vector<double> maskIntervals;
+    std::optional<EndedBySignal> ended;
+    try {
+        completed = observer.instruct() && playAll(context, observer, recorder, maskIntervals);
+        if (completed)
+            reason = "completed";
+    } catch (const EndedBySignal& signal) {
+        ended = signal;
+        reason = "ended by " + signal.name();
+    }
     recorder.end(reason);
-    if (played.completed)
-        claim.complete();
-    addOutcome(sidecar, reason, played.maskIntervals, refresh.hz);
+    addOutcome(sidecar, reason, maskIntervals, refresh.hz);
     writeFile(folder.sidecar(session), sidecar.dump(2) + "\n");
-    if (played.completed)
+    if (completed && claim)
+        claim->complete();
+    if (ended)
+        throw EndedBySignal{*ended};
+    if (completed)
         observer.thank();
-    return played.completed;
+    return completed;
 }
 
 } // namespace obscura

@@ -10,7 +10,9 @@ namespace obscura {
 
 // One participant, from claiming a slot to the last row: instructions, every trial in the slot's
 // order, thanks. Each row is on disk before the next trial begins. True when all trials were
-// recorded; otherwise the person left, the rows so far are kept and the slot is given back.
+// recorded; otherwise the person left, the rows so far are kept and the slot is given back. A
+// signal does the same, and then throws EndedBySignal. A rehearsal takes no slot: it has the order
+// of the first.
 bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
                 Observer& observer);
 

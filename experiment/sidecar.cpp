@@ -1,6 +1,8 @@
 #include "experiment/sidecar.h"
 
 #include "experiment/machine.h"
+#include "protocols/design.h"
+#include "protocols/files.h"
 #include "protocols/version.h"
 
 #include <nlohmann/json.hpp>
@@ -32,13 +34,17 @@ ordered_json spell(const IntervalSummary& summary) {
 ordered_json circumstances(const Context& context, const Observer& observer) {
     const Protocol& protocol = context.study.protocol;
     ordered_json sidecar = {
+        {"format_version", 2}, // 1 had no version, rehearsal, design and texts
         {"study", protocol.name},
         {"protocol", protocol.path.string()},
         {"protocol_sha256", protocol.sha256},
+        {"design_sha256", context.designSha256},
+        {"texts_sha256", sha256(partsOf(protocol).texts)},
         {"stimuli", context.study.manifest.folder.string()},
         {"participant", context.session.participant},
         {"session", context.session.number},
         {"simulated", context.session.simulated},
+        {"rehearsal", context.session.rehearsal},
         {"slot", context.assignment.slot},
         {"square", context.assignment.square},
         {"square_row", context.assignment.row},

@@ -1,9 +1,11 @@
 #include "experiment/study.h"
 
+#include "protocols/design.h"
 #include "protocols/error.h"
 #include "protocols/files.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <span>
@@ -22,12 +24,14 @@ std::string remedy(const fs::path& protocol, const fs::path& stimuli) {
 
 void checkBelongTogether(const Protocol& protocol, const Manifest& manifest) {
     const std::string place = (manifest.folder / "manifest.json").string();
-    if (manifest.protocolSha256 != protocol.sha256)
+    const bool same = manifest.stimuliSha256.empty() // written by an earlier version
+                          ? manifest.protocolSha256 == protocol.sha256
+                          : manifest.stimuliSha256 == sha256(partsOf(protocol).stimuli);
+    if (!same)
         throw Error({place, 0, 0, {}},
-                    fmt::format("these stimuli were made from another version of {} (SHA-256 "
-                                "{:.12}..., the file has {:.12}...); {}",
-                                protocol.path.string(), manifest.protocolSha256, protocol.sha256,
-                                remedy(protocol.path, manifest.folder)));
+                    fmt::format("these stimuli were made from another version of {}, whose scenes, "
+                                "levels, techniques, conditions, image or seed have changed; {}",
+                                protocol.path.string(), remedy(protocol.path, manifest.folder)));
     for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
         if (i >= manifest.pairs.size() || manifest.pairs[i].condition != protocol.conditions[i].id)
             throw Error({place, 0, 0, fmt::format("pairs[{}]", i)},
@@ -52,6 +56,13 @@ std::string readVerified(const Manifest& manifest, const FileRecord& record) {
 
 const PairRecord& Study::pair(int condition) const {
     return manifest.pairs.at(static_cast<std::size_t>(condition));
+}
+
+std::string Study::design() const {
+    nlohmann::json design = nlohmann::json::parse(designOf(protocol));
+    for (const PairRecord& pair : manifest.pairs)
+        design["images"][pair.condition] = {{"a", pair.a.image.sha256}, {"b", pair.b.image.sha256}};
+    return design.dump();
 }
 
 Study openStudy(const fs::path& protocol, const fs::path& stimuli) {

@@ -9,12 +9,16 @@
 namespace obscura {
 
 // A protocol and the stimuli made from it, known to belong together: the manifest was made from
-// this very protocol file and has both images of every condition.
+// this protocol, which may have other texts since then, and has both images of every condition.
 struct Study {
     Protocol protocol;
     Manifest manifest;
 
     const PairRecord& pair(int condition) const; // as the protocol counts them, from 0
+
+    // All that must be the same for every participant: the protocol's design (design.h) and the
+    // hashes of the images.
+    std::string design() const;
 };
 
 Study openStudy(const std::filesystem::path& protocol, const std::filesystem::path& stimuli);

@@ -295,6 +295,8 @@ Manifest readManifest(const std::filesystem::path& path) {
     root["study"].read(manifest.study);
     root["title"].read(manifest.title);
     root["protocolSha256"].read(manifest.protocolSha256);
+    if (root.has("stimuliSha256"))
+        root["stimuliSha256"].read(manifest.stimuliSha256);
     root["commit"].read(manifest.commit);
     root["width"].read(manifest.width);
     root["height"].read(manifest.height);
@@ -319,6 +321,7 @@ void writeManifest(const std::filesystem::path& path, const Manifest& manifest) 
                        {"study", manifest.study},
                        {"title", manifest.title},
                        {"protocolSha256", manifest.protocolSha256},
+                       {"stimuliSha256", manifest.stimuliSha256},
                        {"commit", manifest.commit},
                        {"width", manifest.width},
                        {"height", manifest.height},

@@ -55,7 +55,9 @@ struct PairRecord {
 // What obscura-stimuli wrote, and all that the presenter and the report need to know of it.
 struct Manifest {
     std::string study, title;
-    std::string protocolSha256;
+    std::string protocolSha256; // of the file that they were made from
+    std::string stimuliSha256;  // of its part that decides stimuli (design.h); "" in manifests
+                                // that were written before there was one
     std::string commit;
     int width = 0, height = 0;
     std::vector<PairRecord> pairs;

@@ -47,8 +47,8 @@ constexpr std::string_view text = "text", some = "text, not empty", flag = "0 or
                            whole = "a whole number >= 0", hash = "64 hexadecimal digits";
 
 const Column columns[] = {
-    {"schema_version", "Version of this list of columns", &R::schemaVersion, "1",
-     [](const R& r) { return r.schemaVersion == 1; }},
+    {"schema_version", "Version of this list of columns", &R::schemaVersion,
+     "the version whose columns the header names", any},
     {"row_id", "Unique name of the row: participant, session, trial", &R::rowId, some,
      filled<&R::rowId>},
     {"study_id", "Name of the study, from the protocol", &R::studyId, some, filled<&R::studyId>},
@@ -138,6 +138,11 @@ const Column columns[] = {
     {"machine_id", "Name of the machine", &R::machineId, some, filled<&R::machineId>},
     {"wall_time_utc", "When the row was written, ISO 8601, UTC", &R::wallTimeUtc,
      "a time such as 2026-01-31T23:59:59Z", [](const R& r) { return isUtcTime(r.wallTimeUtc); }},
+    {"rehearsal", "1 when the session was a rehearsal, which does not count", &R::rehearsal, flag,
+     any, 2},
+    {"design_sha256",
+     "SHA-256 of the study's design: conditions, order, trial and images, without texts",
+     &R::designSha256, hash, digest<&R::designSha256>, 2},
 };
 
 std::string spell(const Response& response, const Column& column) {
@@ -169,31 +174,50 @@ bool parseCell(Response& response, const Column& column, const std::string& cell
     return std::visit(parser, column.field);
 }
 
-std::vector<std::string> columnNames() {
+std::vector<std::string> namesOf(std::span<const Column> list) {
     std::vector<std::string> names;
-    for (const Column& column : columns)
+    for (const Column& column : list)
         names.emplace_back(column.name);
     return names;
 }
 
-std::optional<BadRow> parseRow(const CsvRecord& record, const std::string& file,
-                               Response& response) {
-    const std::size_t expected = std::size(columns);
-    if (const std::string fault = faultOf(record, expected); !fault.empty())
+// The earliest version that has every column of the header.
+int versionOf(const CsvRecord& header) {
+    int version = 1;
+    for (const Column& column : columns)
+        if (std::count(header.cells.begin(), header.cells.end(), column.name))
+            version = std::max(version, column.since);
+    return version;
+}
+
+// `list`: the columns of the file's version.
+std::optional<BadRow> parseRow(const CsvRecord& record, std::span<const Column> list, int version,
+                               const std::string& file, Response& response) {
+    if (const std::string fault = faultOf(record, list.size()); !fault.empty())
         return BadRow{{file, record.line, 0, {}}, fault};
     for (const bool check : {false, true}) // every cell first: a check may read several
-        for (std::size_t i = 0; i < expected; ++i)
-            if (check ? !columns[i].accepts(response)
-                      : !parseCell(response, columns[i], record.cells[i]))
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (check ? !list[i].accepts(response) : !parseCell(response, list[i], record.cells[i]))
                 return BadRow{
-                    {file, record.line, static_cast<int>(i) + 1, std::string(columns[i].name)},
-                    fmt::format("expected {}, found \"{}\"", columns[i].expected, record.cells[i])};
+                    {file, record.line, static_cast<int>(i) + 1, std::string(list[i].name)},
+                    fmt::format("expected {}, found \"{}\"", list[i].expected, record.cells[i])};
+    if (response.schemaVersion != version)
+        return BadRow{{file, record.line, 1, "schema_version"},
+                      fmt::format("expected {}, whose columns the header names, found {}", version,
+                                  response.schemaVersion)};
     return std::nullopt;
 }
 
 } // namespace
 
 std::span<const Column> responseColumns() { return columns; }
+
+std::vector<Column> responseColumns(int version) {
+    std::vector<Column> result;
+    std::copy_if(std::begin(columns), std::end(columns), std::back_inserter(result),
+                 [&](const Column& column) { return column.since <= version; });
+    return result;
+}
 
 std::string responseHeader() {
     std::string line;
@@ -222,10 +246,12 @@ ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
         reject({file, 0, 0, {}}, "expected a header line; the file ends before that line does");
         return result;
     }
-    checkHeader(records.front(), columnNames(), file);
+    result.version = versionOf(records.front());
+    const std::vector<Column> list = responseColumns(result.version);
+    checkHeader(records.front(), namesOf(list), file);
     for (const CsvRecord& record : std::span(records).subspan(1)) {
         Response response;
-        if (const auto bad = parseRow(record, file, response)) {
+        if (const auto bad = parseRow(record, list, result.version, file, response)) {
             reject(bad->place, bad->message);
             continue;
         }

@@ -15,7 +15,7 @@ namespace obscura {
 // columns in camelCase; responseColumns has each column's meaning, and is the only list of them.
 struct Response {
     // identity
-    int schemaVersion = 1;
+    int schemaVersion = 2;
     std::string rowId, studyId, participantId, sessionId;
     bool simulated = false;
     int slotId = 0, squareId = 0, squareRow = 0;
@@ -40,6 +40,9 @@ struct Response {
     int earlyPressesInMask = 0;
     // provenance
     std::string appVersion, gitCommit, protocolSha256, machineId, wallTimeUtc;
+    // since version 2; in rows of version 1: no rehearsal, and ""
+    bool rehearsal = false;
+    std::string designSha256;
 };
 
 struct Column {
@@ -50,10 +53,12 @@ struct Column {
     std::string_view expected; // "text", "a whole number >= 1", "a or b": checked, and quoted
                                // in errors
     bool (*accepts)(const Response&);
+    int since = 1; // version of the list that brought the column
 };
 
-// In the order of the file.
+// In the order of the file; of an earlier version, those that it had.
 std::span<const Column> responseColumns();
+std::vector<Column> responseColumns(int version);
 
 // Fields are quoted where they must be (RFC 4180). Both end with a line feed.
 std::string responseHeader();
@@ -66,13 +71,15 @@ struct BadRow {
 };
 
 struct ResponseFile {
+    int version = 2; // of its list of columns
     std::vector<Response> rows;
     std::vector<int> lines; // of each row, from 1 (the header)
     std::vector<BadRow> bad;
 };
 
 // Reads one participant's CSV and checks every row against the columns. A missing or unknown
-// column is an Error. A bad row is an Error naming file, line and column, or, when `lenient`, goes
+// column is an Error, but that files of an earlier version lack what came later: `version` says so.
+// A bad row is an Error naming file, line and column, or, when `lenient`, goes
 // into `bad` and is skipped; so are a last line without line feed and a header without one (torn
 // writes). A place's column is the number of the cell, as a spreadsheet shows it.
 ResponseFile readResponses(const std::filesystem::path& path, bool lenient);

@@ -1,5 +1,6 @@
 #include "stimuli/generate.h"
 
+#include "protocols/design.h"
 #include "protocols/files.h"
 #include "protocols/version.h"
 #include "stimuli/contact_sheet.h"
@@ -134,6 +135,7 @@ Manifest emptyManifest(const Protocol& protocol) {
     manifest.study = protocol.name;
     manifest.title = protocol.title;
     manifest.protocolSha256 = protocol.sha256;
+    manifest.stimuliSha256 = sha256(partsOf(protocol).stimuli);
     manifest.commit = std::string(commit());
     manifest.width = protocol.width;
     manifest.height = protocol.height;

@@ -93,7 +93,7 @@ std::vector<Monitor> monitors() {
     return result;
 }
 
-Window::Window(const WindowOptions& options) {
+Window::Window(const WindowOptions& options) : interrupt_(options.interrupt) {
     open(options);
     listen();
     glfwMakeContextCurrent(window_.get());
@@ -209,16 +209,19 @@ void Window::swap() {
     glClear(GL_COLOR_BUFFER_BIT);
     glDisable(GL_SCISSOR_TEST);
     glFinish();
+    interrupt_();
 }
 
 std::vector<Input> Window::poll() {
     glfwPollEvents();
+    interrupt_();
     return std::exchange(inputs_, {});
 }
 
 std::vector<Input> Window::wait() {
-    if (inputs_.empty())
-        glfwWaitEvents();
+    constexpr double interval = 0.1; // seconds between calls of interrupt_
+    for (interrupt_(); inputs_.empty(); interrupt_())
+        glfwWaitEventsTimeout(interval);
     return std::exchange(inputs_, {});
 }
 

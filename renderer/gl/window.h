@@ -31,6 +31,8 @@ struct WindowOptions {
     std::string title;
     int monitor = 1;              // from 1, as monitors() lists them
     std::optional<Size> windowed; // nothing: full screen, in the monitor's current mode
+    // Called by poll(), swap() and, several times a second, wait(): may throw to end what goes on.
+    void (*interrupt)() = [] {};
 };
 
 // A window with an OpenGL 4.5 context for showing pictures pixel by pixel: double-buffered,
@@ -90,6 +92,7 @@ class Window {
     std::unique_ptr<GLFWwindow, Destroy> window_;
     int width_ = 0, height_ = 0;
     std::vector<Input> inputs_;
+    void (*interrupt_)();
 };
 
 } // namespace obscura::gl

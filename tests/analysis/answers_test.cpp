@@ -10,6 +10,7 @@ namespace {
 using test::errorOf;
 using test::sampleResponse;
 using test::writeRows;
+using testing::HasSubstr;
 
 class CollectAnswers : public testing::Test {
   protected:
@@ -87,17 +88,60 @@ TEST_F(CollectAnswers, RefusesMixedStudies) {
     EXPECT_EQ(collect({.mixedStudies = true}).counted.size(), 2u);
 }
 
-TEST_F(CollectAnswers, RefusesMixedVersionsOfOneProtocol) {
+TEST_F(CollectAnswers, RefusesMixedDesignsOfOneStudy) {
     Response later = sampleResponse(2, "c1", true);
     later.protocolSha256 = std::string(64, '1');
+    later.designSha256 = std::string(64, '2');
     writeRows(folder_ / "a.csv", {sampleResponse(1, "c1", true), later});
     const std::string expected =
-        fmt::format("{0}:3: protocol_sha256: expected \"{1}\" as in {0}:2, found \"{2}\"; "
-                    "--allow-mixed-protocols pools them",
-                    file("a.csv"), std::string(64, '0'), std::string(64, '1'));
+        fmt::format("{0}:3: design_sha256: a design of study \"sample\" other than in {0}:2 "
+                    "(protocol 111111111111..., not 000000000000...); --allow-mixed-protocols "
+                    "pools them",
+                    file("a.csv"));
     EXPECT_EQ(error(), expected);
     EXPECT_EQ(errorOf([&] { collect({.mixedStudies = true}); }), expected);
     EXPECT_EQ(collect({.mixedProtocols = true}).counted.size(), 2u);
+}
+
+TEST_F(CollectAnswers, AMendedTextIsNoOtherDesign) {
+    Response later = sampleResponse(2, "c1", true);
+    later.protocolSha256 = std::string(64, '1');
+    writeRows(folder_ / "a.csv", {sampleResponse(1, "c1", true), later});
+    EXPECT_EQ(collect().counted.size(), 2u);
+}
+
+// The columns of version 2 are the last two.
+TEST_F(CollectAnswers, TakesFilesOfAnEarlierVersionForTheStudys) {
+    const auto without = [](std::string line) {
+        line.resize(line.rfind(',', line.rfind(',') - 1));
+        return line + "\n";
+    };
+    Response old = sampleResponse(1, "c1", true);
+    old.schemaVersion = 1;
+    writeFile(folder_ / "a.csv", without(responseHeader()) + without(responseLine(old)));
+    Response later = sampleResponse(3, "c1", true);
+    later.protocolSha256 = std::string(64, '1');
+    writeRows(folder_ / "b.csv", {sampleResponse(2, "c1", true), later});
+    const Answers answers = collect();
+    EXPECT_EQ(answers.counted.size(), 3u);
+    EXPECT_EQ(answers.earlierFiles, 1);
+
+    Response other = sampleResponse(4, "c1", true);
+    other.protocolSha256 = other.designSha256 = std::string(64, '4');
+    writeRows(folder_ / "b.csv", {other});
+    EXPECT_THAT(error(), HasSubstr("other than in"));
+}
+
+TEST_F(CollectAnswers, NeverCountsRehearsals) {
+    Response rehearsed = sampleResponse(2, "c1", true);
+    rehearsed.rehearsal = true;
+    writeRows(folder_ / "a.csv", {sampleResponse(1, "c1", true)});
+    writeRows(folder_ / "b.csv", {rehearsed});
+    const Answers answers = collect();
+    EXPECT_EQ(answers.counted.size(), 1u);
+    EXPECT_EQ(answers.leftOut.rehearsed, 1);
+    std::filesystem::remove(folder_ / "a.csv");
+    EXPECT_THAT(error(), HasSubstr("found rehearsals only: 1 rows"));
 }
 
 TEST_F(CollectAnswers, RefusesARowReadTwice) {

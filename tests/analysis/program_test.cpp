@@ -136,7 +136,9 @@ TEST_F(Program, HonoursEveryRule) {
     EXPECT_EQ(with("--allow-duplicates"), 0);
     extra = test::sampleResponse(29, "c1", true);
     EXPECT_EQ(with(""), 0);
-    extra.protocolSha256 = std::string(64, 'f');
+    extra.protocolSha256 = std::string(64, 'f'); // a mended text
+    EXPECT_EQ(with(""), 0);
+    extra.designSha256 = std::string(64, 'f');
     EXPECT_EQ(with(""), 1);
     EXPECT_EQ(with("--allow-mixed-protocols"), 0);
     extra.studyId = "another";

@@ -43,6 +43,7 @@ TEST_F(LedgerTest, GivesSlotsInOrder) {
     EXPECT_EQ(records[1].state, SlotState::reserved);
     EXPECT_EQ(records[1].machine, machineName());
     EXPECT_EQ(records[1].process, ::getpid());
+    EXPECT_EQ(records[1].owner, ProcessId::current());
 }
 
 TEST_F(LedgerTest, OffersReturnedSlotsFirstTheLowestBefore) {
@@ -88,7 +89,7 @@ TEST_F(LedgerTest, SimulatedAndRealDoNotMix) {
 TEST_F(LedgerTest, AnUnknownSlotCannotBeGivenBack) {
     claim("P1");
     EXPECT_THAT([&] { ledger.giveBack(2); },
-                ThrowsMessage<Error>(HasSubstr("slot 2 was never claimed")));
+                ThrowsMessage<Error>(HasSubstr("slot 2 was never claimed; slots 1 to 1 were")));
 }
 
 TEST_F(LedgerTest, ATornLastLineIsRemoved) {
@@ -97,6 +98,114 @@ TEST_F(LedgerTest, ATornLastLineIsRemoved) {
     EXPECT_EQ(ledger.records().size(), 1u);
     EXPECT_EQ(claim("P2"), 2);
     EXPECT_EQ(ledger.records().size(), 2u);
+}
+
+// An editor may have dropped the line feed; what it ended is no torn line.
+TEST_F(LedgerTest, AWholeLastLineWithoutItsLineFeedIsKept) {
+    claim("P1");
+    std::string text = readFile(file);
+    text.pop_back();
+    writeFile(file, text);
+    EXPECT_EQ(ledger.records().size(), 1u);
+    EXPECT_EQ(claim("P2"), 2);
+    EXPECT_EQ(ledger.records().size(), 2u);
+}
+
+std::string lineOf(const std::string& slot, const std::string& more = "") {
+    return fmt::format(R"({{"slot":{},"state":"reserved","participant":"P1","session":1,)"
+                       R"("simulated":false,"machine":"lab","process":7,)"
+                       R"("time":"2026-01-31T23:59:59Z"{}}})"
+                       "\n",
+                       slot, more);
+}
+
+TEST_F(LedgerTest, SlotsOutOfRangeAreErrors) {
+    for (const char* slot : {"0", "-1", "1000001", "4294967297", "1e9", "1.5", "\"1\"", "null"}) {
+        writeFile(file, lineOf(slot));
+        EXPECT_THAT([&] { claim("P2"); },
+                    ThrowsMessage<Error>(
+                        AllOf(HasSubstr("ledger.jsonl:1: expected"),
+                              HasSubstr("\"slot\": expected a whole number from 1 to 1000000"))))
+            << slot;
+    }
+}
+
+TEST_F(LedgerTest, AGapInTheSlotsIsMissingLines) {
+    writeFile(file, lineOf("1") + lineOf("4"));
+    EXPECT_THAT([&] { claim("P2"); },
+                ThrowsMessage<Error>(HasSubstr("ledger.jsonl:2: expected slots up to 2, found 4: "
+                                               "lines are missing before this one")));
+}
+
+TEST_F(LedgerTest, ReadsLinesOfVersion1AndRefusesThoseOfALaterOne) {
+    writeFile(file, lineOf("1"));
+    EXPECT_FALSE(ledger.records().front().owner.has_value());
+    EXPECT_EQ(claim("P2"), 2);
+    writeFile(file, lineOf("1", ",\"format_version\":3"));
+    EXPECT_THAT([&] { ledger.records(); },
+                ThrowsMessage<Error>(HasSubstr("\"format_version\": expected a whole number from 1 "
+                                               "to 2, found 3")));
+}
+
+TEST_F(LedgerTest, TwoDesignsNeverShareALedger) {
+    ledger.claim({"P1", 1, false}, std::string(64, 'a'));
+    EXPECT_EQ(ledger.claim({"P2", 1, false}, std::string(64, 'a')), 2);
+    EXPECT_THAT(
+        [&] {
+            ledger.claim({"P3", 1, false}, std::string(64, 'b'));
+        },
+        ThrowsMessage<Error>(HasSubstr("slot 1 was claimed for another design")));
+    EXPECT_EQ(ledger.records().size(), 2u);
+}
+
+// A number alone would be taken for the process that has it today.
+TEST_F(LedgerTest, AnOwnerIsKnownByMachineBootAndStart) {
+    const auto recordOf = [&](ProcessId owner, SlotState state = SlotState::reserved) {
+        return SlotRecord{1,  state,      {"P1", 1, false}, machineName(),
+                          "", ::getpid(), std::move(owner), {}};
+    };
+    const ProcessId self = ProcessId::current();
+    ProcessId earlier = self, beforeBoot = self, elsewhere = self;
+    --earlier.start;
+    beforeBoot.boot = std::string(32, '0');
+    elsewhere.machine = "another-0";
+    EXPECT_FALSE(isOrphan(recordOf(self)));
+    EXPECT_TRUE(isOrphan(recordOf(earlier)));
+    EXPECT_TRUE(isOrphan(recordOf(beforeBoot)));
+    EXPECT_FALSE(isOrphan(recordOf(elsewhere)));
+
+    EXPECT_EQ(doubtOf(recordOf(earlier)), "");
+    EXPECT_THAT(doubtOf(recordOf(elsewhere)), HasSubstr("cannot be seen from here"));
+    EXPECT_THAT(doubtOf(recordOf(earlier, SlotState::completed)), HasSubstr("has completed it"));
+    EXPECT_EQ(doubtOf(recordOf(elsewhere, SlotState::returned)), "");
+}
+
+TEST_F(LedgerTest, ASlotIsVoidedOnce) {
+    claim("P1");
+    ledger.giveBack(1);
+    EXPECT_THAT([&] { ledger.giveBack(1); },
+                ThrowsMessage<Error>(HasSubstr("slot 1 is void already")));
+}
+
+TEST_F(LedgerTest, VoidingMakesNoLedger) {
+    EXPECT_THAT([&] { ledger.giveBack(1); },
+                ThrowsMessage<Error>(HasSubstr("slot 1 was never claimed: there is no ledger")));
+    EXPECT_FALSE(std::filesystem::exists(file));
+}
+
+// Voided by a person while it ran, and given to another since.
+TEST_F(LedgerTest, ASessionDoesNotCompleteAnothersSlot) {
+    Claim mine(ledger, {"P1", 1, false});
+    ledger.giveBack(1);
+    const pid_t other = ::fork();
+    if (other == 0) {
+        ledger.claim({"P2", 1, false});
+        ::_exit(0);
+    }
+    ::waitpid(other, nullptr, 0);
+    EXPECT_THAT([&] { mine.complete(); },
+                ThrowsMessage<Error>(HasSubstr("is that of participant P2 now")));
+    EXPECT_EQ(ledger.records().front().state, SlotState::reserved);
 }
 
 TEST_F(LedgerTest, ADamagedLineIsAnErrorWithItsPlace) {

@@ -337,10 +337,13 @@ TEST_F(PresenterTest, LosingTheKeyboardMarksTheTrial) {
     runPair(desktop, 2, XK_1);
     ASSERT_TRUE(desktop.awaits(drawn(startPage(texts, 3, 7)).image, patience));
 
-    const auto answers = rows("P01");
+    const DataFolder rehearsals(data, study.protocol, true); // as a window's always are
+    const auto answers = readResponses(rehearsals.rows({"P01", 1}), false).rows;
     ASSERT_EQ(answers.size(), 2u);
     EXPECT_TRUE(answers[0].interrupted);
     EXPECT_FALSE(answers[1].interrupted);
+    EXPECT_TRUE(answers[0].rehearsal);
+    EXPECT_FALSE(fs::exists(dataFolder().ledger())) << "no slot";
 }
 
 TEST_F(PresenterTest, AsksForTheParticipantOnScreen) {

@@ -36,7 +36,7 @@ Response row(int trial) {
     row.conditionId = row.level = row.scene = row.techniqueA = row.techniqueB = "x";
     row.paramsA = "{\"radius\":0.5,\"samples\":24}";
     row.stimFirst = row.stimSecond = "x.png";
-    row.sha256First = row.sha256Second = row.protocolSha256 = digest;
+    row.sha256First = row.sha256Second = row.protocolSha256 = row.designSha256 = digest;
     row.firstIs = "a";
     row.maskFramesPlanned = row.maskFramesShown = 120;
     row.refreshHz = 60;
@@ -102,6 +102,7 @@ TEST_F(RecorderTest, NeverOverwrites) {
     EXPECT_EQ(readFile(folder.rows(session)), before);
     EXPECT_THAT(objection(folder, session), HasSubstr("there are data of P1, session 1"));
     EXPECT_EQ(objection(folder, {"P1", 2, false}), "");
+    EXPECT_THAT(objection(folder, {"p1", 1, false}), HasSubstr("in other letters"));
 }
 
 TEST_F(RecorderTest, JournalsEachStepBeforeReturning) {
@@ -160,6 +161,41 @@ TEST_F(RecorderTest, ARowThatDoesNotFitLeavesNoHalfLine) {
     ::waitpid(child, &status, 0);
     EXPECT_EQ(WEXITSTATUS(status), 0);
     EXPECT_EQ(readFile(folder.rows(session)), responseHeader() + responseLine(row(1)));
+}
+
+// Killed, or stopped by a full disk, between making a file and writing its header.
+TEST_F(RecorderTest, NoFileIsThereWithoutItsHeader) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{10, 10};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        try {
+            Recorder recorder(folder, session, 1);
+        } catch (const Error&) {
+            ::_exit(0);
+        }
+        ::_exit(1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 0);
+    EXPECT_FALSE(fs::exists(folder.rows(session)));
+    EXPECT_THAT(objection(folder, session), "");
+}
+
+TEST_F(RecorderTest, ADescriptionOfAnEarlierVersionGainsTheNewColumns) {
+    const fs::path path = dataset / "dataset_description.json";
+    auto json = nlohmann::ordered_json::parse(readFile(path));
+    json["author"] = "A. Person";
+    auto& variables = json["variableMeasured"];
+    variables.erase(variables.size() - 1);
+    variables.erase(variables.size() - 1);
+    writeFile(path, json.dump());
+    folder.prepare();
+    const auto now = nlohmann::ordered_json::parse(readFile(path));
+    EXPECT_EQ(now["author"], "A. Person");
+    EXPECT_EQ(now["variableMeasured"].size(), responseColumns().size());
 }
 
 TEST_F(RecorderTest, ADescriptionOfOtherColumnsIsRefused) {

@@ -1,4 +1,5 @@
 #include "experiment/session.h"
+#include "experiment/signals.h"
 #include "protocols/error.h"
 #include "protocols/files.h"
 #include "protocols/responses.h"
@@ -9,8 +10,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 
 namespace obscura {
@@ -174,9 +179,125 @@ TEST_F(SimulationTest, LeavingKeepsTheRowsAndReturnsTheSlot) {
     EXPECT_EQ(readResponses(data.rows(next), false).rows.front().slotId, 1);
 }
 
+TEST_F(SimulationTest, ARehearsalTakesNoSlotAndSaysSo) {
+    const Study tiny = study();
+    const DataFolder rehearsals(folder.path() / "data", tiny.protocol, true);
+    const SessionId rehearsal{"S01", 1, false, true}, real{"S01", 1, true};
+    SimulatedObserver observer(tiny.protocol, 1, "S01");
+    EXPECT_TRUE(runSession(tiny, rehearsals, rehearsal, observer));
+    const auto rows = readResponses(rehearsals.rows(rehearsal), false).rows;
+    ASSERT_EQ(rows.size(), 7u);
+    for (const Response& row : rows)
+        EXPECT_TRUE(row.rehearsal);
+    EXPECT_FALSE(fs::exists(rehearsals.ledger()));
+    EXPECT_FALSE(fs::exists(folder.path() / "data" / "tiny-study"));
+    EXPECT_THAT(test::psychDsFaults(rehearsals.path()), IsEmpty());
+
+    // The same person for good: the first slot, and no rehearsal.
+    const DataFolder data(folder.path() / "data", tiny.protocol);
+    EXPECT_EQ(objection(data, real), "");
+    EXPECT_TRUE(runSession(tiny, data, real, observer));
+    EXPECT_FALSE(readResponses(data.rows(real), false).rows.front().rehearsal);
+    EXPECT_EQ(Ledger(data.ledger()).records().front().slot, 1);
+    EXPECT_THAT(test::psychDsFaults(data.path()), IsEmpty());
+}
+
+// Is sent a signal while image 2 of the third pair is on view.
+class Interrupted : public SimulatedObserver {
+  public:
+    using SimulatedObserver::SimulatedObserver;
+
+    void prepare(const Upcoming& trial) override {
+        trial_ = trial.index;
+        SimulatedObserver::prepare(trial);
+    }
+    double show(Screen screen) override {
+        if (trial_ == 3 && screen == Screen::second)
+            ::raise(SIGTERM);
+        return SimulatedObserver::show(screen);
+    }
+
+  private:
+    int trial_ = 0;
+};
+
+TEST_F(SimulationTest, ASignalEndsTheSessionAsLeavingDoes) {
+    const Study tiny = study();
+    const DataFolder data(folder.path() / "data", tiny.protocol);
+    const SessionId session{"S01", 1, true};
+    const pid_t child = ::fork(); // for a noted signal stays noted
+    if (child == 0) {
+        heedSignals();
+        Interrupted observer(tiny.protocol, 1, "S01");
+        try {
+            runSession(tiny, data, session, observer);
+        } catch (const EndedBySignal& ended) {
+            ::_exit(ended.exitStatus());
+        }
+        ::_exit(0);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 128 + SIGTERM);
+    EXPECT_EQ(readResponses(data.rows(session), false).rows.size(), 2u);
+    EXPECT_EQ(Ledger(data.ledger()).records().front().state, SlotState::returned);
+    EXPECT_THAT(readFile(data.journal(session)), HasSubstr("\"reason\":\"ended by SIGTERM\""));
+    EXPECT_EQ(nlohmann::json::parse(readFile(data.sidecar(session)))["end_reason"],
+              "ended by SIGTERM");
+}
+
+// No terminal to ask on: refused without --yes. A slot that is in doubt is one completed, or one of
+// another machine.
+TEST_F(SimulationTest, VoidingACompletedSlotNeedsAWord) {
+    const Study tiny = study();
+    const DataFolder data(folder.path() / "data", tiny.protocol);
+    SimulatedObserver observer(tiny.protocol, 1, "S01");
+    ASSERT_TRUE(runSession(tiny, data, {"S01", 1, true}, observer));
+    const fs::path output = folder.path() / "output.txt";
+    const auto ledger = [&](const std::string& more) {
+        return std::system(fmt::format("'{}/obscura-experiment' ledger --protocol '{}' --data '{}' "
+                                       "--void 1 {} >'{}' 2>&1 </dev/null",
+                                       OBSCURA_BIN, tiny.protocol.path.string(),
+                                       (folder.path() / "data").string(), more, output.string())
+                               .c_str());
+    };
+    EXPECT_NE(ledger(""), 0);
+    EXPECT_THAT(readFile(output), AllOf(HasSubstr("slot 1 is that of participant S01, session 1, "
+                                                  "who has completed it"),
+                                        HasSubstr("with --yes if you are sure")));
+    EXPECT_EQ(Ledger(data.ledger()).records().front().state, SlotState::completed);
+    EXPECT_EQ(ledger("--yes"), 0);
+    EXPECT_EQ(Ledger(data.ledger()).records().front().state, SlotState::returned);
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    return text.replace(text.find(from), from.size(), to);
+}
+
+TEST_F(SimulationTest, StimuliServeAProtocolWhoseTextsOrTrialWereMended) {
+    const test::TinyStudy tiny = test::writeTinyStudy(folder.path());
+    const std::string text = readFile(tiny.protocol);
+    for (const auto& [from, to] : {std::pair("Press Space.", "Please press Space."),
+                                   std::pair("mask = 0.3", "mask = 0.4")}) {
+        writeFile(tiny.protocol, "# a remark\n" + replaced(text, from, to));
+        EXPECT_NO_THROW(openStudy(tiny.protocol, tiny.stimuli)) << from;
+    }
+}
+
+// As versions before had it, which knew the file's hash only.
+TEST_F(SimulationTest, StimuliOfAnEarlierVersionServeTheSameFile) {
+    const test::TinyStudy tiny = test::writeTinyStudy(folder.path());
+    Manifest manifest = readManifest(tiny.stimuli / "manifest.json");
+    manifest.stimuliSha256.clear();
+    writeManifest(tiny.stimuli / "manifest.json", manifest);
+    EXPECT_NO_THROW(openStudy(tiny.protocol, tiny.stimuli));
+    std::ofstream(tiny.protocol, std::ios::app) << "# a remark\n";
+    EXPECT_THROW(openStudy(tiny.protocol, tiny.stimuli), Error);
+}
+
 TEST_F(SimulationTest, AnotherProtocolThanTheStimuliWereMadeFromIsRefused) {
     const test::TinyStudy tiny = test::writeTinyStudy(folder.path());
-    std::ofstream(tiny.protocol, std::ios::app) << "# a remark\n";
+    writeFile(tiny.protocol, replaced(readFile(tiny.protocol), "samples = 24", "samples = 25"));
     EXPECT_THAT([&] { openStudy(tiny.protocol, tiny.stimuli); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("made from another version of"),
                                            HasSubstr("make them: obscura-stimuli"))));

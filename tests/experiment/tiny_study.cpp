@@ -1,5 +1,6 @@
 #include "tests/experiment/tiny_study.h"
 
+#include "protocols/design.h"
 #include "protocols/files.h"
 #include "protocols/random.h"
 
@@ -100,7 +101,9 @@ TinyStudy writeTinyStudy(const fs::path& folder, const TinyOptions& options) {
     Manifest manifest;
     manifest.study = "tiny-study";
     manifest.title = "Noise, for tests";
-    manifest.protocolSha256 = sha256File(study.protocol);
+    const Protocol protocol = readProtocol(study.protocol);
+    manifest.protocolSha256 = protocol.sha256;
+    manifest.stimuliSha256 = sha256(partsOf(protocol).stimuli);
     manifest.commit = "unknown";
     manifest.width = options.width;
     manifest.height = options.height;

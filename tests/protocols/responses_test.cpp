@@ -63,7 +63,7 @@ TEST_F(Responses, EveryColumnHasANameOfItsOwnAndADescription) {
         EXPECT_FALSE(column.description.empty()) << column.name;
         EXPECT_FALSE(column.expected.empty()) << column.name;
     }
-    EXPECT_EQ(names.size(), 48u);
+    EXPECT_EQ(names.size(), 50u);
 }
 
 TEST_F(Responses, SurviveWritingAndReading) {
@@ -114,8 +114,8 @@ TEST_P(BadValue, IsRefused) {
 }
 
 const Fault faults[] = {
-    {"version", [](Response& r) { r.schemaVersion = 2; },
-     "1: schema_version: expected 1, found \"2\""},
+    {"version", [](Response& r) { r.schemaVersion = 1; },
+     "1: schema_version: expected 2, whose columns the header names, found 1"},
     {"participant", [](Response& r) { r.participantId = ""; },
      "4: participant_id: expected text, not empty, found \"\""},
     {"kind", [](Response& r) { r.trialKind = "warm-up"; },
@@ -147,7 +147,8 @@ TEST_F(Responses, RefuseCellsThatAreNotNumbers) {
     std::string line = responseLine(sampleResponse(1, "c1", true));
     line.replace(0, 1, "1x");
     EXPECT_EQ(errorOf(responseHeader() + line),
-              ":2:1: schema_version: expected 1, found \"1x\"; --lenient skips it");
+              ":2:1: schema_version: expected the version whose columns the header names, found "
+              "\"1x\"; --lenient skips it");
 }
 
 TEST_F(Responses, RefuseAnotherHeader) {
@@ -160,9 +161,34 @@ TEST_F(Responses, RefuseAnotherHeader) {
     EXPECT_EQ(errorOf(header), ":1: row_id: the column stands twice in the header");
 }
 
+// Data of version 0.1.0, which knew no rehearsals and no design.
+TEST_F(Responses, ReadFilesOfAnEarlierVersionAndSaySo) {
+    const auto without = [](std::string line) { // the two columns of version 2
+        line.resize(line.rfind(',', line.rfind(',') - 1));
+        return line + "\n";
+    };
+    Response row = sampleResponse(1, "c1", true);
+    row.schemaVersion = 1;
+    const std::string header = without(responseHeader());
+    const ResponseFile old = read(header + without(responseLine(row)));
+    EXPECT_EQ(old.version, 1);
+    ASSERT_EQ(old.rows.size(), 1u);
+    EXPECT_FALSE(old.rows[0].rehearsal);
+    EXPECT_EQ(old.rows[0].designSha256, "");
+    EXPECT_EQ(read(responseHeader() + responseLine(sampleResponse(1, "c1", true))).version, 2);
+
+    EXPECT_EQ(errorOf(header + without(responseLine(sampleResponse(1, "c1", true)))),
+              ":2:1: schema_version: expected 1, whose columns the header names, found 2; "
+              "--lenient skips it");
+    std::string half = responseHeader();
+    half.resize(half.rfind(','));
+    EXPECT_EQ(errorOf(half + "\n"),
+              ":1:50: expected column \"design_sha256\", found \"end of line\"");
+}
+
 TEST_F(Responses, RefuseALineOfAnotherLength) {
     EXPECT_EQ(errorOf(responseHeader() + "1,2,3\n"),
-              ":2: expected 48 columns, found 3; --lenient skips it");
+              ":2: expected 50 columns, found 3; --lenient skips it");
 }
 
 TEST_F(Responses, RefuseATornLastLine) {

@@ -53,6 +53,7 @@ inline Response sampleResponse(int number, const std::string& condition, bool ch
     row.protocolSha256 = std::string(64, '0');
     row.machineId = "lab";
     row.wallTimeUtc = "2026-01-31T23:59:59Z";
+    row.designSha256 = std::string(64, 'd');
     return row;
 }
 
