@@ -181,7 +181,7 @@ int present(const Arguments& arguments, const Study& study) {
             throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
     reportOrphans(folder);
 
-    Display display(windowOptions(arguments), study.protocol.trial.grey);
+    Display display(windowOptions(arguments), study.protocol.trial.grey, curtain(study));
     Presenter presenter(display, study, warning(arguments, display.refresh()));
     const std::optional<std::string> id = arguments.participant.empty()
                                               ? presenter.askId(problemWith)

@@ -60,6 +60,8 @@ Played playAll(const Context& context, Observer& observer, Recorder& recorder) {
                   context.study.pair(trial.condition).condition))
             return played;
         recorder.record(makeRow(context, trial, machine.record()));
+        if (const int hasty = machine.record().hastyPresses)
+            recorder.hastyPresses(trial.index, hasty);
         const auto& intervals = machine.record().maskIntervals;
         played.maskIntervals.insert(played.maskIntervals.end(), intervals.begin(), intervals.end());
     }

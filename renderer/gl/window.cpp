@@ -226,4 +226,12 @@ void Window::showCursor(bool visible) {
     glfwSetInputMode(window_.get(), GLFW_CURSOR, visible ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_HIDDEN);
 }
 
+bool Window::focused() const {
+    return glfwGetWindowAttrib(window_.get(), GLFW_FOCUSED) == GLFW_TRUE;
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_.get(), title.c_str());
+}
+
 } // namespace obscura::gl

@@ -152,6 +152,19 @@ TEST(Trial, AMissedRefreshIsCountedAndMadeUpFor) {
     EXPECT_NEAR(bench.record().mask, 0.5, 1e-9);
 }
 
+// Bridges et al. 2020: above 1.2 refreshes.
+TEST(Trial, AnIntervalOfMoreThanOnePointTwoRefreshesIsMissed) {
+    for (const auto& [refreshes, missed] : {std::pair(1.19, 0), std::pair(1.21, 1)}) {
+        Bench bench(0.5);
+        bench.toMask();
+        for (int i = 0; i < 10; ++i)
+            bench.step();
+        bench.step(refreshes * frame);
+        bench.settle();
+        EXPECT_EQ(bench.record().missedFrames, missed) << refreshes;
+    }
+}
+
 TEST(Trial, AStallAtTheVeryEndShowsInTheCount) {
     Bench bench(0.5);
     bench.toMask();
@@ -277,6 +290,28 @@ TEST(Trial, KeysBeforeAPictureIsOnTheScreenDoNothing) {
     bench.toSecond();
 }
 
+// Told of only after the onset, but stamped before it.
+TEST(Trial, APressOfBeforeTheOnsetIsNoAnswerToAnyScreen) {
+    const auto late = [](Bench& bench, Key key) {
+        const double before = bench.now - 0.001;
+        bench.machine.handle({Event::Kind::press, before, key});
+        bench.machine.handle({Event::Kind::release, before, key});
+        bench.machine.handle({Event::Kind::option, before, {}, 1});
+    };
+    Bench bench(0.1);
+    bench.settle(), late(bench, Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::start);
+    bench.tap(Key::space), bench.settle(), late(bench, Key::space), late(bench, Key::escape);
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    bench.tap(Key::space), bench.settle(), late(bench, Key::space), late(bench, Key::escape);
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    bench.tap(Key::space), bench.settle(), late(bench, Key::two), late(bench, Key::escape);
+    EXPECT_EQ(bench.machine.screen(), Screen::question);
+    bench.tap(Key::escape), bench.settle(), late(bench, Key::two);
+    EXPECT_EQ(bench.machine.screen(), Screen::leave);
+    EXPECT_EQ(bench.record().chosen, 0);
+}
+
 TEST(Trial, OnlySpaceEndsAnImage) {
     Bench bench;
     bench.toFirst();
@@ -349,6 +384,52 @@ TEST(Trial, MinimumViewHoldsSpaceBack) {
     EXPECT_EQ(bench.machine.screen(), Screen::second);
     bench.look(1.6), bench.tap(Key::space);
     EXPECT_EQ(bench.machine.screen(), Screen::question);
+}
+
+TEST(Trial, TwoTapsOfSpaceLoseNoPicture) {
+    const double minimum = Trial().minimumView;
+    EXPECT_EQ(minimum, 0.5);
+    Bench bench(0.1, minimum);
+    bench.settle();
+    for (int i = 0; i < 8; ++i) { // one starts the pair, the others come too soon
+        bench.tap(Key::space);
+        bench.settle();
+        bench.look(0.05);
+    }
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    EXPECT_EQ(bench.record().hastyPresses, 7);
+    bench.look(0.2), bench.tap(Key::space), bench.settle();
+    for (int i = 0; i < 4; ++i)
+        bench.tap(Key::space), bench.look(0.1);
+    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.record().hastyPresses, 11);
+    bench.look(0.2), bench.tap(Key::space), bench.settle();
+    EXPECT_EQ(bench.machine.screen(), Screen::question);
+    EXPECT_GE(bench.record().view1, minimum);
+    EXPECT_GE(bench.record().view2, minimum);
+    EXPECT_EQ(bench.record().earlyPresses, 0);
+    EXPECT_FALSE(bench.record().interrupted);
+}
+
+TEST(Trial, HeldSpaceEndsNoImageHoweverLong) {
+    Bench bench(0.1, 0.5);
+    bench.settle();
+    for (int i = 0; i < 100; ++i) // auto-repeat, should a system send it
+        bench.down(Key::space), bench.settle(), bench.look(0.03);
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    EXPECT_EQ(bench.record().hastyPresses, 0) << "one press, and it started the pair";
+}
+
+// Looking at the page that asks whether to leave is not looking at the image.
+TEST(Trial, OnlyTimeInSightCountsTowardsTheMinimumView) {
+    Bench bench(0.1, 0.5);
+    bench.toFirst();
+    bench.look(0.2);
+    bench.tap(Key::escape), bench.settle(), bench.look(60), bench.tap(Key::one), bench.settle();
+    bench.look(0.2), bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    bench.look(0.2), bench.tap(Key::space);
+    EXPECT_EQ(bench.machine.screen(), Screen::mask);
 }
 
 TEST(Trial, LostFocusMarksAnExposureAsInterrupted) {
