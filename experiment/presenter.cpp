@@ -168,6 +168,7 @@ std::vector<Event> Presenter::events(bool wait) {
             if (const int option = optionAt(input.x, input.y))
                 events.push_back({Event::Kind::option, input.time, {}, option});
             break;
+        case Kind::focusGained:
         case Kind::exposed:
         case Kind::text:
             break;

@@ -158,8 +158,8 @@ void Window::listen() {
         self(window).inputs_.push_back(input);
     });
     glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* window, int focused) {
-        if (!focused)
-            self(window).inputs_.push_back(self(window).stamped(Input::Kind::focusLost));
+        self(window).inputs_.push_back(
+            self(window).stamped(focused ? Input::Kind::focusGained : Input::Kind::focusLost));
     });
     glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* window) {
         self(window).inputs_.push_back(self(window).stamped(Input::Kind::exposed));

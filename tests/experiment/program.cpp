@@ -18,8 +18,9 @@ namespace obscura::test {
 
 namespace {
 
-constexpr int idleLooks = 1000; // 10 ms apart or more
-constexpr double longestComputing = 180;
+constexpr int mostSleepy = 1000;       // looks at a sleeping program, 10 ms apart or more, in
+constexpr double leastComputing = 0.2; // which it must have computed so many seconds
+constexpr double mostComputing = 180;
 
 // How a process is, as Linux says it.
 struct Pulse {
@@ -91,16 +92,18 @@ void Program::thaw() { ::kill(process_, SIGCONT); }
 void Program::await(const std::string& what, const std::function<bool()>& reached) {
     const double begun = pulseOf(process_).computing;
     double before = begun;
-    for (int idle = 0; !reached();) {
+    for (int asleep = 0; !reached();) {
         const Pulse pulse = pulseOf(process_);
         if (pulse.state == 'Z' || pulse.state == 'X')
             return reached() ? void() : giveUp(what, "it has ended");
-        const bool still = pulse.state == 'S' && pulse.computing == before;
-        idle = still ? idle + 1 : 0;
-        before = pulse.computing;
-        if (idle > idleLooks)
+        asleep += pulse.state == 'S';
+        if (pulse.computing - before >= leastComputing) {
+            before = pulse.computing;
+            asleep = 0;
+        }
+        if (asleep > mostSleepy)
             giveUp(what, "it sleeps");
-        if (pulse.computing - begun > longestComputing)
+        if (pulse.computing - begun > mostComputing)
             giveUp(what, "it has computed for minutes");
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }

@@ -11,9 +11,9 @@ namespace obscura::test {
 
 // The presenter under test: started with arguments on a display, its output in a file, killed with
 // this object. What is waited for is given up by lack of progress, not by time: when the program
-// has ended, when it sleeps and has done nothing while we looked a thousand times, or when it has
-// computed for minutes. A busy machine makes none of these happen sooner. Giving up throws, which
-// ends the test.
+// has ended, when it was found asleep a thousand times and has hardly computed meanwhile, or when
+// it has computed for minutes. A busy machine makes none of these happen sooner. Giving up throws,
+// which ends the test.
 class Program {
   public:
     Program(const std::string& display, std::vector<std::string> arguments,
