@@ -24,7 +24,7 @@ constexpr double mostComputing = 180;
 
 // How a process is, as Linux says it.
 struct Pulse {
-    char state = 'X';     // R running or ready, S asleep, D waiting for the disk, Z ended
+    char state = 'X';     // R running or ready, S asleep, D waiting for the disk
     double computing = 0; // seconds of all its threads so far
 };
 
@@ -45,6 +45,13 @@ Pulse pulseOf(pid_t process) {
         pulse.computing = (user + system) / static_cast<double>(::sysconf(_SC_CLK_TCK));
     }
     return pulse;
+}
+
+// All of its threads, that is: it can be waited for, which this leaves to others.
+bool hasEnded(pid_t process) {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(process), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+           info.si_pid != 0;
 }
 
 } // namespace
@@ -94,7 +101,7 @@ void Program::await(const std::string& what, const std::function<bool()>& reache
     double before = begun;
     for (int asleep = 0; !reached();) {
         const Pulse pulse = pulseOf(process_);
-        if (pulse.state == 'Z' || pulse.state == 'X')
+        if (hasEnded(process_))
             return reached() ? void() : giveUp(what, "it has ended");
         asleep += pulse.state == 'S';
         if (pulse.computing - before >= leastComputing) {
