@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -409,8 +410,7 @@ std::vector<std::string> unshowable(const std::string& text) {
                     glyph == PANGO_GLYPH_INVALID_INPUT ? glyph : glyph & ~PANGO_GLYPH_UNKNOWN_FLAG);
     } while (pango_layout_iter_next_run(iter.get()));
     std::vector<std::string> names;
-    for (const char32_t character : missing)
-        names.push_back(named(character));
+    std::transform(missing.begin(), missing.end(), std::back_inserter(names), named);
     return names;
 }
 

@@ -23,7 +23,7 @@ const T& find(const std::vector<T>& items, const std::string& name) {
 template <typename T>
 std::string reference(TomlTable& table, std::string_view key, const std::vector<T>& items,
                       std::string_view kind) {
-    const std::string name = table.text(key);
+    std::string name = table.text(key);
     mustExist(table.placeOf(*table.node(key), table.pathOf(key)), name, items, kind);
     return name;
 }
@@ -97,7 +97,7 @@ std::string parseMember(TomlTable& condition, const toml::node& node, std::size_
         throw Error(place, fmt::format("expected the name of a technique under [techniques], "
                                        "found {}",
                                        TomlTable::spell(node)));
-    const std::string name = *named->value<std::string>();
+    std::string name = *named->value<std::string>();
     mustExist(place, name, protocol.techniques, "a technique under [techniques]");
     return name;
 }
@@ -193,8 +193,8 @@ Texts parseTexts(TomlTable table) {
     for (const TextKey& key : textKeys()) {
         std::string& text = texts.*key.text;
         text = table.text(key.name, key.compulsory ? std::nullopt : std::optional(text));
-        if (table.has(key.name))
-            texts.places[std::string(key.name)] = table.placeOf(key.name);
+        if (const toml::node* node = table.node(key.name))
+            texts.places[std::string(key.name)] = table.placeOf(*node, table.pathOf(key.name));
     }
     table.finish();
     checkProgress(texts.progress, texts.places["progress"]);
