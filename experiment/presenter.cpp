@@ -60,12 +60,15 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
 // window has the keyboard.
 void Presenter::checkFits() const {
     const int pairs = pairCount(study_);
-    for (const Page& page :
-         {loadingPage(texts_, 2 * pairs, 2 * pairs), idPage(texts_, "", texts_.idMalformed),
-          idPage(texts_, "", texts_.idTaken), instructionsPage(texts_),
-          startPage(texts_, pairs, pairs), questionPage(texts_), leavePage(texts_),
-          thanksPage(texts_)})
-        sheet(unfocused(page, texts_), "");
+    const gl::Window& window = display_.window();
+    for (Page page : {loadingPage(texts_, 2 * pairs, 2 * pairs),
+                      idPage(texts_, "", texts_.idMalformed), idPage(texts_, "", texts_.idTaken),
+                      instructionsPage(texts_), startPage(texts_, pairs, pairs),
+                      questionPage(texts_), leavePage(texts_), thanksPage(texts_)}) {
+        page.warning = warning_;
+        drawPage(unfocused(page, texts_), window.width(), window.height(),
+                 study_.protocol.trial.grey);
+    }
 }
 
 // Files are read and decoded by as many threads as there are cores, no further ahead than that.
@@ -97,11 +100,15 @@ void Presenter::loadImages() {
 }
 
 Presenter::Sheet Presenter::sheet(Page page, std::string title) const {
-    if (page.warning.empty())
-        page.warning = warning_;
+    page.warning = warning_;
+    return drawn(std::move(page), std::move(title));
+}
+
+Presenter::Sheet Presenter::drawn(Page page, std::string title) const {
     const gl::Window& window = display_.window();
-    DrawnPage drawn = drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
-    return {std::move(page), std::move(title), upload(drawn.image), std::move(drawn.options)};
+    auto [image, options] =
+        drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
+    return {std::move(page), std::move(title), upload(image), std::move(options)};
 }
 
 double Presenter::showSheet(const Sheet& page) {
@@ -110,7 +117,7 @@ double Presenter::showSheet(const Sheet& page) {
     display_.window().showCursor(true);
     focused_ = display_.window().focused();
     if (!focused_)
-        unfocused_ = sheet(unfocused(page.page, texts_), page.title);
+        unfocused_ = drawn(unfocused(page.page, texts_), page.title);
     return display_.show(focused_ ? &page.picture : &unfocused_.picture);
 }
 

@@ -50,7 +50,8 @@ class Presenter : public Observer {
         std::vector<Box> options;
     };
 
-    Sheet sheet(Page page, std::string title) const;
+    Sheet sheet(Page page, std::string title) const; // with the warning above it
+    Sheet drawn(Page page, std::string title) const;
     void checkFits() const;
     void loadImages();
     double showSheet(const Sheet& sheet);

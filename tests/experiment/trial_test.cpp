@@ -1,65 +1,12 @@
-#include "experiment/trial.h"
-
-#include <gtest/gtest.h>
+#include "tests/experiment/trial_bench.h"
 
 namespace obscura {
 namespace {
 
 using Next = TrialMachine::Next;
 using gl::Key;
-
-constexpr double frame = 1 / 60.0;
-
-// Plays the runner's part: a clock, a screen that shows what is asked for at the next refresh, and
-// fingers.
-class Bench {
-  public:
-    explicit Bench(double mask = 2, double minimumView = 0)
-        : machine(Trial{mask, 128, minimumView}, 60) {}
-
-    TrialMachine machine;
-    double now = 10;
-    int maskShown = 0;
-
-    void down(Key key) { machine.handle({Event::Kind::press, now, key}); }
-    void up(Key key) { machine.handle({Event::Kind::release, now, key}); }
-    void tap(Key key) { down(key), up(key); }
-    void click(int option) { machine.handle({Event::Kind::option, now, {}, option}); }
-    void loseFocus() { machine.handle({Event::Kind::focusLost, now}); }
-    void look(double seconds) { now += seconds; }
-
-    // One thing the machine asks for other than waiting; false when it waits or has ended.
-    bool step(double interval = frame) {
-        if (machine.next() == Next::journal) {
-            machine.journalled();
-            return true;
-        }
-        if (machine.next() != Next::present)
-            return false;
-        now += interval;
-        maskShown += machine.screen() == Screen::mask;
-        machine.shown(now);
-        return true;
-    }
-    void settle() {
-        while (step()) {
-        }
-    }
-    void settleOn(Screen screen) {
-        while (machine.screen() != screen && step()) {
-        }
-        while (machine.screen() == screen && machine.next() != Next::wait &&
-               screen != Screen::mask && step()) {
-        }
-        ASSERT_EQ(machine.screen(), screen);
-    }
-
-    void toFirst() { settle(), tap(Key::space), settle(); }
-    void toMask() { toFirst(), look(3), tap(Key::space); }
-    void toSecond() { toMask(), settle(); }
-    void toQuestion() { toSecond(), look(2), tap(Key::space), settle(); }
-    const TrialRecord& record() const { return machine.record(); }
-};
+using test::Bench;
+using test::frame;
 
 TEST(Trial, GoesThroughItsScreensInOrder) {
     Bench bench;
@@ -370,66 +317,6 @@ TEST(Trial, NothingLeadsBack) {
     for (const Key key : {Key::backspace, Key::space})
         bench.tap(key);
     EXPECT_EQ(bench.machine.screen(), Screen::question);
-}
-
-TEST(Trial, MinimumViewHoldsSpaceBack) {
-    Bench bench(0.1, 1.5);
-    bench.toFirst();
-    bench.look(1), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
-    bench.look(0.6), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::mask);
-    bench.settle();
-    bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::second);
-    bench.look(1.6), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::question);
-}
-
-TEST(Trial, TwoTapsOfSpaceLoseNoPicture) {
-    const double minimum = Trial().minimumView;
-    EXPECT_EQ(minimum, 0.5);
-    Bench bench(0.1, minimum);
-    bench.settle();
-    for (int i = 0; i < 8; ++i) { // one starts the pair, the others come too soon
-        bench.tap(Key::space);
-        bench.settle();
-        bench.look(0.05);
-    }
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
-    EXPECT_EQ(bench.record().hastyPresses, 7);
-    bench.look(0.2), bench.tap(Key::space), bench.settle();
-    for (int i = 0; i < 4; ++i)
-        bench.tap(Key::space), bench.look(0.1);
-    EXPECT_EQ(bench.machine.screen(), Screen::second);
-    EXPECT_EQ(bench.record().hastyPresses, 11);
-    bench.look(0.2), bench.tap(Key::space), bench.settle();
-    EXPECT_EQ(bench.machine.screen(), Screen::question);
-    EXPECT_GE(bench.record().view1, minimum);
-    EXPECT_GE(bench.record().view2, minimum);
-    EXPECT_EQ(bench.record().earlyPresses, 0);
-    EXPECT_FALSE(bench.record().interrupted);
-}
-
-TEST(Trial, HeldSpaceEndsNoImageHoweverLong) {
-    Bench bench(0.1, 0.5);
-    bench.settle();
-    for (int i = 0; i < 100; ++i) // auto-repeat, should a system send it
-        bench.down(Key::space), bench.settle(), bench.look(0.03);
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
-    EXPECT_EQ(bench.record().hastyPresses, 0) << "one press, and it started the pair";
-}
-
-// Looking at the page that asks whether to leave is not looking at the image.
-TEST(Trial, OnlyTimeInSightCountsTowardsTheMinimumView) {
-    Bench bench(0.1, 0.5);
-    bench.toFirst();
-    bench.look(0.2);
-    bench.tap(Key::escape), bench.settle(), bench.look(60), bench.tap(Key::one), bench.settle();
-    bench.look(0.2), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
-    bench.look(0.2), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::mask);
 }
 
 TEST(Trial, LostFocusMarksAnExposureAsInterrupted) {
