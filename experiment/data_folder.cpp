@@ -141,9 +141,14 @@ fs::path DataFolder::sidecar(const SessionId& session) const {
 
 fs::path DataFolder::ledger() const { return root_ / "sessions" / "ledger.jsonl"; }
 
+bool isParticipantId(const std::string& id) {
+    return !id.empty() && id.size() <= longestId &&
+           std::all_of(id.begin(), id.end(), isAlphanumeric);
+}
+
 std::string objection(const DataFolder& folder, const SessionId& session) {
     const std::string& id = session.participant;
-    if (id.empty() || id.size() > longestId || !std::all_of(id.begin(), id.end(), isAlphanumeric))
+    if (!isParticipantId(id))
         return fmt::format("expected a participant id of 1 to {} letters (a-z) and digits",
                            longestId);
     if (fs::exists(folder.rows(session)) || fs::exists(folder.journal(session)))

@@ -50,4 +50,6 @@ class DataFolder {
 // "" when it can.
 std::string objection(const DataFolder& folder, const SessionId& session);
 
+bool isParticipantId(const std::string& id); // short, of letters and digits
+
 } // namespace obscura

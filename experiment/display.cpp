@@ -18,17 +18,18 @@ constexpr int warmUpFlips = 10, measuredFlips = 100;
 
 } // namespace
 
-Display::Display(const gl::WindowOptions& options, int grey)
+Display::Display(const gl::WindowOptions& options, int grey, const Curtain& curtain)
     : window_(options), grey_(grey), windowed_(options.windowed.has_value()) {
-    measure();
+    const Image8 image = curtain(window_.width(), window_.height());
+    measure({image.width, image.height, image.channels, image.pixels});
 }
 
-void Display::measure() {
+void Display::measure(const gl::Picture& curtain) {
     for (int i = 0; i < warmUpFlips; ++i)
-        show(nullptr);
+        show(&curtain);
     std::vector<double> intervals;
-    for (double last = show(nullptr); intervals.size() < measuredFlips;) {
-        const double time = show(nullptr);
+    for (double last = show(&curtain); intervals.size() < measuredFlips;) {
+        const double time = show(&curtain);
         intervals.push_back(time - last);
         last = time;
     }

@@ -2,17 +2,24 @@
 
 #include "experiment/refresh.h"
 #include "renderer/gl/window.h"
+#include "renderer/image.h"
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <functional>
+
 namespace obscura {
 
+// What the screen shows first: a picture for a screen of that width and height.
+using Curtain = std::function<Image8(int, int)>;
+
 // The screen: shows one picture at a time, 1:1 in its middle on the surround grey, and says when it
-// came on. Its rate is measured when it is made. Where swaps follow no vertical blank (Xvfb, a
-// driver told not to wait) it is paced by the clock at 60 Hz, and refresh() says so.
+// came on. Its rate is measured when it is made, with `curtain` on view. Where swaps follow no
+// vertical blank (Xvfb, a driver told not to wait) it is paced by the clock at 60 Hz, and refresh()
+// says so.
 class Display {
   public:
-    Display(const gl::WindowOptions& options, int grey);
+    Display(const gl::WindowOptions& options, int grey, const Curtain& curtain);
 
     const Refresh& refresh() const { return refresh_; }
     void describe(nlohmann::ordered_json& sidecar) const;
@@ -26,7 +33,7 @@ class Display {
     double show(const gl::Picture* picture);
 
   private:
-    void measure();
+    void measure(const gl::Picture& curtain);
     void draw(const gl::Picture* picture);
     void awaitTick();
 

@@ -240,7 +240,7 @@ int present(const Arguments& arguments, const Study& study) {
         reportOrphans(folder);
     }
 
-    Display display(windowOptions(arguments), study.protocol.trial.grey);
+    Display display(windowOptions(arguments), study.protocol.trial.grey, curtain(study));
     Presenter presenter(display, study, warning(arguments, display.refresh()));
     const std::optional<std::string> id = arguments.participant.empty()
                                               ? presenter.askId(problemWith)

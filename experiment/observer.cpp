@@ -52,7 +52,8 @@ std::vector<Event> SimulatedObserver::events(bool wait) {
     if (!wait)
         return {};
     if (visible_ == Screen::first || visible_ == Screen::second)
-        return press(gl::Key::space, draw(protocol_.simulation.view));
+        return press(gl::Key::space, std::max(protocol_.trial.minimumView + quickest,
+                                              draw(protocol_.simulation.view)));
     if (visible_ == Screen::question) {
         const double after = draw(protocol_.simulation.decision);
         return press(random_.uniform() < chooseSecond_ ? gl::Key::two : gl::Key::one, after);

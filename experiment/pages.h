@@ -7,14 +7,22 @@
 
 namespace obscura {
 
-// What participants and experimenters read, page by page. The study's words come from its protocol,
-// so they are in the participant's language; only the question whether to leave is ours.
+// What participants and experimenters read, page by page. Every word comes from the study's
+// protocol, or is its English default, so that all can be in the participant's language.
 
-Page idPage(const std::string& typed, const std::string& objection);
+Page loadingPage(const Texts& texts, int loaded, int images);
+Page idPage(const Texts& texts, const std::string& typed, const std::string& objection);
 Page instructionsPage(const Texts& texts);
 Page startPage(const Texts& texts, int pair, int pairs);
 Page questionPage(const Texts& texts);
-Page leavePage();
+Page leavePage(const Texts& texts);
 Page thanksPage(const Texts& texts);
+
+// The page as it looks while another window has the keyboard.
+Page unfocused(Page page, const Texts& texts);
+
+// An Error names the first text with characters that no installed font can show, where it is in the
+// protocol, and those characters.
+void checkShowable(const Texts& texts);
 
 } // namespace obscura

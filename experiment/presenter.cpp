@@ -1,13 +1,23 @@
 #include "experiment/presenter.h"
 
+#include "experiment/data_folder.h"
 #include "experiment/pages.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
+#include <deque>
+#include <future>
+#include <thread>
 
 namespace obscura {
 
 namespace {
+
+constexpr double progressInterval = 0.1; // seconds
+constexpr const char* idTitle = "who takes part?";
+
+int pairCount(const Study& study) { return static_cast<int>(study.manifest.pairs.size()); }
 
 gl::Picture upload(const Image8& image) {
     return {image.width, image.height, image.channels, image.pixels};
@@ -28,44 +38,125 @@ bool edit(std::string& text, const gl::Input& input) {
 
 } // namespace
 
+Curtain curtain(const Study& study) {
+    checkShowable(study.protocol.texts);
+    return [&study](int width, int height) {
+        const Page page = loadingPage(study.protocol.texts, 0, 2 * pairCount(study));
+        return drawPage(page, width, height, study.protocol.trial.grey).image;
+    };
+}
+
 Presenter::Presenter(Display& display, const Study& study, std::string warning)
-    : display_(display), study_(study), warning_(std::move(warning)) {
-    for (const PairRecord& pair : study.manifest.pairs)
-        pairs_.push_back({load(study.manifest, pair.a), load(study.manifest, pair.b)});
-    const Texts& texts = study.protocol.texts;
-    question_ = sheet(questionPage(texts));
-    leave_ = sheet(leavePage());
+    : display_(display), study_(study), texts_(study.protocol.texts), warning_(std::move(warning)) {
+    checkFits();
+    question_ = sheet(questionPage(texts_), "");
+    leave_ = sheet(leavePage(texts_), "asked whether to end");
+    loadImages();
     display_.warmUp(question_.picture);
-    // Texts that do not fit should stop the session before it begins.
-    sheet(instructionsPage(texts));
-    sheet(startPage(texts, 1, static_cast<int>(pairs_.size())));
-    sheet(thanksPage(texts));
+    display_.window().poll(); // what was pressed meanwhile was meant for nobody
 }
 
-gl::Picture Presenter::load(const Manifest& manifest, const ImageRecord& record) {
-    gl::Picture picture = upload(loadStimulus(manifest, record));
-    display_.warmUp(picture);
-    return picture;
-}
-
-Presenter::Sheet Presenter::sheet(Page page) const {
-    page.warning = warning_;
+// Texts that do not fit should stop the session before it begins. They need most room while another
+// window has the keyboard.
+void Presenter::checkFits() const {
+    const int pairs = pairCount(study_);
     const gl::Window& window = display_.window();
-    DrawnPage drawn = drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
-    return {upload(drawn.image), std::move(drawn.options)};
+    for (Page page : {loadingPage(texts_, 2 * pairs, 2 * pairs),
+                      idPage(texts_, "", texts_.idMalformed), idPage(texts_, "", texts_.idTaken),
+                      instructionsPage(texts_), startPage(texts_, pairs, pairs),
+                      questionPage(texts_), leavePage(texts_), thanksPage(texts_)}) {
+        page.warning = warning_;
+        drawPage(unfocused(page, texts_), window.width(), window.height(),
+                 study_.protocol.trial.grey);
+    }
 }
 
-double Presenter::showPicture(const gl::Picture* picture, const Sheet* sheet) {
-    shown_ = picture;
-    shownSheet_ = sheet;
-    display_.window().showCursor(sheet != nullptr);
-    return display_.show(picture);
+// Files are read and decoded by as many threads as there are cores, no further ahead than that.
+void Presenter::loadImages() {
+    const Manifest& manifest = study_.manifest;
+    const int count = 2 * pairCount(study_);
+    const auto decoded = [&manifest](int index) {
+        const PairRecord& pair = manifest.pairs[static_cast<std::size_t>(index / 2)];
+        return loadStimulus(manifest, index % 2 ? pair.b : pair.a);
+    };
+    std::deque<std::future<Image8>> ahead;
+    const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
+    pairs_.resize(manifest.pairs.size());
+    double shown = display_.window().now();
+    for (int next = 0, loaded = 0; loaded < count; ++loaded) {
+        while (next < count && ahead.size() < threads)
+            ahead.push_back(std::async(std::launch::async, decoded, next++));
+        gl::Picture& picture =
+            pairs_[static_cast<std::size_t>(loaded / 2)][static_cast<std::size_t>(loaded % 2)];
+        picture = upload(ahead.front().get());
+        ahead.pop_front();
+        display_.warmUp(picture);
+        display_.window().poll();
+        if (display_.window().now() - shown > progressInterval) {
+            const Sheet progress = sheet(loadingPage(texts_, loaded + 1, count), "");
+            shown = display_.show(&progress.picture);
+        }
+    }
+}
+
+Presenter::Sheet Presenter::sheet(Page page, std::string title) const {
+    page.warning = warning_;
+    return drawn(std::move(page), std::move(title));
+}
+
+Presenter::Sheet Presenter::drawn(Page page, std::string title) const {
+    const gl::Window& window = display_.window();
+    auto [image, options] =
+        drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
+    return {std::move(page), std::move(title), upload(image), std::move(options)};
+}
+
+double Presenter::showSheet(const Sheet& page) {
+    sheet_ = &page;
+    title_ = page.title;
+    display_.window().showCursor(true);
+    focused_ = display_.window().focused();
+    if (!focused_)
+        unfocused_ = drawn(unfocused(page.page, texts_), page.title);
+    return display_.show(focused_ ? &page.picture : &unfocused_.picture);
+}
+
+double Presenter::showImage(const gl::Picture* image, std::string title) {
+    sheet_ = nullptr;
+    image_ = image;
+    title_ = std::move(title);
+    display_.window().showCursor(false);
+    return display_.show(image);
+}
+
+void Presenter::announce() {
+    if (announced_ == title_)
+        return;
+    display_.window().setTitle("Obscura: " + title_);
+    announced_ = title_;
+}
+
+// Sleeps until there is something. Before that, what is on the screen is known to be there, and a
+// page says whether the keyboard is here.
+std::vector<gl::Input> Presenter::inputs() {
+    if (sheet_ && focused_ != display_.window().focused())
+        showSheet(*sheet_);
+    announce();
+    std::vector<gl::Input> inputs = display_.window().wait();
+    const bool uncovered = std::any_of(inputs.begin(), inputs.end(), [](const gl::Input& input) {
+        return input.kind == gl::Input::Kind::exposed;
+    });
+    if (uncovered && sheet_)
+        showSheet(*sheet_);
+    else if (uncovered)
+        display_.show(image_);
+    return inputs;
 }
 
 std::vector<Event> Presenter::events(bool wait) {
     using Kind = gl::Input::Kind;
     std::vector<Event> events;
-    for (const gl::Input& input : wait ? display_.window().wait() : display_.window().poll())
+    for (const gl::Input& input : wait ? inputs() : display_.window().poll())
         switch (input.kind) {
         case Kind::press:
             events.push_back({Event::Kind::press, input.time, input.key});
@@ -84,10 +175,8 @@ std::vector<Event> Presenter::events(bool wait) {
             if (const int option = optionAt(input.x, input.y))
                 events.push_back({Event::Kind::option, input.time, {}, option});
             break;
-        case Kind::exposed: // something had covered the window
-            if (wait)
-                display_.show(shown_);
-            break;
+        case Kind::focusGained:
+        case Kind::exposed:
         case Kind::text:
             break;
         }
@@ -96,9 +185,9 @@ std::vector<Event> Presenter::events(bool wait) {
 
 // Of the page on the screen, from 1; 0 when there is none at that place.
 int Presenter::optionAt(int x, int y) const {
-    if (!shownSheet_)
+    if (!sheet_)
         return 0;
-    const auto& boxes = shownSheet_->options;
+    const auto& boxes = focused_ ? sheet_->options : unfocused_.options;
     const auto found = std::find_if(boxes.begin(), boxes.end(),
                                     [&](const Box& box) { return box.contains(x, y); });
     return found == boxes.end() ? 0 : static_cast<int>(found - boxes.begin()) + 1;
@@ -118,8 +207,8 @@ std::vector<Event> Presenter::answers() {
 
 // Drops what was pressed before the page was on the screen.
 void Presenter::turnTo(const Sheet& page) {
-    showPicture(&page.picture, &page);
-    events(false);
+    showSheet(page);
+    display_.window().poll();
 }
 
 // Until Space or a click on the page's option; false when the person leaves instead.
@@ -148,10 +237,10 @@ bool Presenter::leaves() {
         }
 }
 
-bool Presenter::instruct() { return read(sheet(instructionsPage(study_.protocol.texts))); }
+bool Presenter::instruct() { return read(sheet(instructionsPage(texts_), "instructions")); }
 
 void Presenter::thank() {
-    const Sheet page = sheet(thanksPage(study_.protocol.texts));
+    const Sheet page = sheet(thanksPage(texts_), "thanks");
     turnTo(page);
     answers();
 }
@@ -159,17 +248,25 @@ void Presenter::thank() {
 std::optional<std::string>
 Presenter::askId(const std::function<std::string(const std::string&)>& objection) {
     std::string typed, problem;
+    Sheet page = sheet(idPage(texts_, typed, problem), idTitle);
+    turnTo(page);
     for (;;) {
-        const Sheet page = sheet(idPage(typed, problem));
-        showPicture(&page.picture, &page);
-        for (const gl::Input& input : display_.window().wait()) {
+        const auto before = std::pair(typed, problem);
+        for (const gl::Input& input : inputs()) {
             const bool press = input.kind == gl::Input::Kind::press;
             if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
                 return std::nullopt;
-            if (press && input.key == gl::Key::enter && (problem = objection(typed)).empty())
-                return typed;
+            if (press && input.key == gl::Key::enter) {
+                if (objection(typed).empty())
+                    return typed;
+                problem = isParticipantId(typed) ? texts_.idTaken : texts_.idMalformed;
+            }
             if (edit(typed, input))
                 problem.clear();
+        }
+        if (before != std::pair(typed, problem)) {
+            page = sheet(idPage(texts_, typed, problem), idTitle);
+            showSheet(page);
         }
     }
 }
@@ -178,25 +275,27 @@ void Presenter::prepare(const Upcoming& trial) {
     const auto& pair = pairs_.at(static_cast<std::size_t>(trial.condition));
     first_ = &pair[trial.reversed ? 1 : 0];
     second_ = &pair[trial.reversed ? 0 : 1];
-    start_ = sheet(startPage(study_.protocol.texts, trial.index, trial.count));
+    pair_ = fmt::format("pair {} of {}", trial.index, trial.count);
+    start_ = sheet(startPage(texts_, trial.index, trial.count), pair_ + ", start");
+    question_.title = pair_ + ", question";
 }
 
 double Presenter::show(Screen screen) {
     switch (screen) {
     case Screen::start:
-        return showPicture(&start_.picture, &start_);
+        return showSheet(start_);
     case Screen::first:
-        return showPicture(first_, nullptr);
+        return showImage(first_, pair_ + ", first image");
     case Screen::second:
-        return showPicture(second_, nullptr);
+        return showImage(second_, pair_ + ", second image");
     case Screen::question:
-        return showPicture(&question_.picture, &question_);
+        return showSheet(question_);
     case Screen::leave:
-        return showPicture(&leave_.picture, &leave_);
+        return showSheet(leave_);
     case Screen::mask:
         break;
     }
-    return showPicture(nullptr, nullptr);
+    return showImage(nullptr, "");
 }
 
 } // namespace obscura

@@ -12,11 +12,21 @@
 
 namespace obscura {
 
+// What a display is to show while the study is being loaded. An Error when one of the study's texts
+// cannot be shown.
+Curtain curtain(const Study& study);
+
 // A person before a display: shows the study's images and pages, passes on keys and clicks. All
 // images and the question are in graphics memory, and have been drawn once, before the first trial.
+//
+// Keys count only from when a page is on the screen and known to be; from then on the window's
+// title says what is there, so that an experimenter can follow on another screen's task bar. A page
+// of text says so while another window has the keyboard. An image never does: nothing may be seen
+// beside it.
 class Presenter : public Observer {
   public:
-    // `warning` stands above every page of text; "" for none.
+    // `warning` stands above every page of text; "" for none. Loads the study, showing how far it
+    // is.
     Presenter(Display& display, const Study& study, std::string warning);
 
     // Asks for the participant's id until `objection` has none; nothing when Escape was pressed.
@@ -34,13 +44,20 @@ class Presenter : public Observer {
   private:
     // A page in graphics memory, and where its options are.
     struct Sheet {
+        Page page;
+        std::string title; // of the window
         gl::Picture picture;
         std::vector<Box> options;
     };
 
-    Sheet sheet(Page page) const;
-    gl::Picture load(const Manifest& manifest, const ImageRecord& record);
-    double showPicture(const gl::Picture* picture, const Sheet* sheet);
+    Sheet sheet(Page page, std::string title) const; // with the warning above it
+    Sheet drawn(Page page, std::string title) const;
+    void checkFits() const;
+    void loadImages();
+    double showSheet(const Sheet& sheet);
+    double showImage(const gl::Picture* image, std::string title);
+    void announce();
+    std::vector<gl::Input> inputs();
     int optionAt(int x, int y) const;
     std::vector<Event> answers();
     void turnTo(const Sheet& page);
@@ -49,13 +66,21 @@ class Presenter : public Observer {
 
     Display& display_;
     const Study& study_;
+    const Texts& texts_;
     std::string warning_;
     std::vector<std::array<gl::Picture, 2>> pairs_; // by condition: members a and b
     Sheet start_, question_, leave_;
-    const gl::Picture* first_ = nullptr; // of the prepared trial
+    std::string pair_; // the prepared trial, for titles
+    const gl::Picture* first_ = nullptr;
     const gl::Picture* second_ = nullptr;
-    const gl::Picture* shown_ = nullptr;
-    const Sheet* shownSheet_ = nullptr; // when a page is shown
+
+    // What is on the screen: a page, or else an image or, without one, grey.
+    const Sheet* sheet_ = nullptr;
+    const gl::Picture* image_ = nullptr;
+    bool focused_ = true;   // as the page on the screen has it; if not, the screen shows
+    Sheet unfocused_;       // this in its place
+    std::string title_;     // what is on the screen, and
+    std::string announced_; // what the window's title says
 };
 
 } // namespace obscura

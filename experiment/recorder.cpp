@@ -34,6 +34,10 @@ void Recorder::trialStarted(int trial, const std::string& condition) {
 
 void Recorder::record(const Response& row) { rows_.append(responseLine(row)); }
 
+void Recorder::hastyPresses(int trial, int count) {
+    journal_.append(entry("presses_ignored", {{"trial", trial}, {"count", count}}));
+}
+
 void Recorder::end(std::string_view reason) {
     journal_.append(entry("session_ended", {{"reason", reason}}));
 }

@@ -10,9 +10,10 @@
 namespace obscura {
 
 // Keeps a session's rows and its journal, both safe on disk when a function returns. The journal
-// says session_started, then trial_started for each trial before its first image, then
-// session_ended with the reason. A trial that was started but has no row was broken off while the
-// participant looked; a journal without session_ended is a crash.
+// says session_started, then trial_started for each trial before its first image, presses_ignored
+// where Space was pressed too soon, then session_ended with the reason. A trial that was started
+// but has no row was broken off while the participant looked; a journal without session_ended is a
+// crash.
 class Recorder {
   public:
     // New files; an Error when this session has any. `slot`: whose order is shown.
@@ -20,6 +21,7 @@ class Recorder {
 
     void trialStarted(int trial, const std::string& condition);
     void record(const Response& row);
+    void hastyPresses(int trial, int count); // of Space, ignored because an image had just come on
     void end(std::string_view reason);
 
   private:

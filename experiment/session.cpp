@@ -62,6 +62,8 @@ bool playAll(const Context& context, Observer& observer, Recorder& recorder,
                   context.study.pair(trial.condition).condition))
             return false;
         recorder.record(makeRow(context, trial, machine.record()));
+        if (const int hasty = machine.record().hastyPresses)
+            recorder.hastyPresses(trial.index, hasty);
         const auto& intervals = machine.record().maskIntervals;
         maskIntervals.insert(maskIntervals.end(), intervals.begin(), intervals.end());
     }

@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace obscura {
 
@@ -26,11 +28,23 @@ using Surface = std::unique_ptr<cairo_surface_t, Call<cairo_surface_destroy>>;
 using Cairo = std::unique_ptr<cairo_t, Call<cairo_destroy>>;
 using Layout = std::unique_ptr<PangoLayout, Call<g_object_unref>>;
 using Font = std::unique_ptr<PangoFontDescription, Call<pango_font_description_free>>;
+using LayoutIter = std::unique_ptr<PangoLayoutIter, Call<pango_layout_iter_free>>;
 using FontOptions = std::unique_ptr<cairo_font_options_t, Call<cairo_font_options_destroy>>;
 
 constexpr const char* family = "DejaVu Sans, Noto Sans, Liberation Sans, Sans";
 constexpr double lineSpacing = 1.18;
-constexpr double measure = 34; // line length in em: some 65 characters
+constexpr double measure = 34;     // line length in em: some 65 characters
+constexpr double smallestType = 9; // pixels; letters of fewer cannot be told apart
+
+Layout layOut(cairo_t* cairo, const std::string& text, double pixels, bool bold) {
+    Layout layout(pango_cairo_create_layout(cairo));
+    const Font font(pango_font_description_from_string(family));
+    pango_font_description_set_absolute_size(font.get(), std::round(pixels) * PANGO_SCALE);
+    pango_font_description_set_weight(font.get(), bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    pango_layout_set_font_description(layout.get(), font.get());
+    pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+    return layout;
+}
 
 // Shades of grey that go with the page's own, in [0, 1].
 struct Palette {
@@ -53,6 +67,7 @@ class Setter {
         : cairo_(cairo), palette_(palette), width_(width), em_(em) {}
 
     double y = 0;
+    bool tooWide = false; // something does not fit between the sides
 
     void warning(const std::string& text);
     void paragraph(const std::string& text, double size, bool bold = false);
@@ -63,16 +78,24 @@ class Setter {
     bool drawing = false;
 
   private:
+    // A text whose lines have been broken, and the box around all that is drawn of it, as seen from
+    // the layout's own origin: of a text from right to left it begins far from there.
+    struct Block {
+        Layout layout;
+        double x = 0, y = 0, width = 0, height = 0;
+    };
     struct Card {
-        Layout key, label;
+        Block key, label;
         double width = 0, height = 0;
     };
 
     Layout lay(const std::string& text, double size, bool bold, double wrapAt) const;
+    static Block boxed(Layout layout);
+    Block block(const std::string& text, double size, bool bold, double wrapAt) const;
     void ink(double grey) const { cairo_set_source_rgb(cairo_, grey, grey, grey); }
     void rounded(double x, double top, double width, double height, double radius) const;
-    void put(PangoLayout* layout, double x, double top) const;
-    Card card(const Page::Option& option) const;
+    void put(const Block& block, double left, double top) const;
+    Card card(const Page::Option& option, double widest) const;
     void drawCard(const Card& card, double x, double width) const;
     double column() const { return std::min(measure * em_, 0.86 * width_); }
 
@@ -81,27 +104,45 @@ class Setter {
     double width_, em_;
 };
 
-struct Extent {
-    double width, height;
-};
-
-Extent extent(PangoLayout* layout) {
-    int width = 0, height = 0;
-    pango_layout_get_pixel_size(layout, &width, &height);
-    return {static_cast<double>(width), static_cast<double>(height)};
+// A text stands at its layout's left or right side as its letters run, so the layout is made no
+// wider than its widest line: then either side is the block's own.
+void narrow(PangoLayout* layout) {
+    const LayoutIter lines(pango_layout_get_iter(layout));
+    int widest = 0;
+    do {
+        PangoRectangle logical;
+        pango_layout_iter_get_line_extents(lines.get(), nullptr, &logical);
+        widest = std::max(widest, logical.width);
+    } while (pango_layout_iter_next_line(lines.get()));
+    // A pixel more, so that rounding does not break a line anew.
+    pango_layout_set_width(layout, std::min(pango_layout_get_width(layout), widest + PANGO_SCALE));
 }
 
 Layout Setter::lay(const std::string& text, double size, bool bold, double wrapAt) const {
-    Layout layout(pango_cairo_create_layout(cairo_));
-    const Font font(pango_font_description_from_string(family));
-    pango_font_description_set_absolute_size(font.get(), std::round(size * em_) * PANGO_SCALE);
-    pango_font_description_set_weight(font.get(), bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
-    pango_layout_set_font_description(layout.get(), font.get());
-    pango_layout_set_width(layout.get(), static_cast<int>(wrapAt) * PANGO_SCALE);
+    Layout layout = layOut(cairo_, text, size * em_, bold);
+    pango_layout_set_width(layout.get(), static_cast<int>(std::max(wrapAt, em_)) * PANGO_SCALE);
     pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
     pango_layout_set_line_spacing(layout.get(), lineSpacing);
-    pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
     return layout;
+}
+
+Setter::Block Setter::boxed(Layout layout) {
+    PangoRectangle ink, logical;
+    pango_layout_get_pixel_extents(layout.get(), &ink, &logical);
+    const auto [left, right] =
+        std::minmax({logical.x, logical.x + logical.width, ink.x, ink.x + ink.width});
+    const auto [top, bottom] =
+        std::minmax({logical.y, logical.y + logical.height, ink.y, ink.y + ink.height});
+    return {std::move(layout), static_cast<double>(left), static_cast<double>(top),
+            static_cast<double>(right - left), static_cast<double>(bottom - top)};
+}
+
+Setter::Block Setter::block(const std::string& text, double size, bool bold, double wrapAt) const {
+    if (text.empty())
+        return {};
+    Layout layout = lay(text, size, bold, wrapAt);
+    narrow(layout.get());
+    return boxed(std::move(layout));
 }
 
 void Setter::rounded(double x, double top, double width, double height, double radius) const {
@@ -114,43 +155,52 @@ void Setter::rounded(double x, double top, double width, double height, double r
     cairo_close_path(cairo_);
 }
 
-void Setter::put(PangoLayout* layout, double x, double top) const {
-    cairo_move_to(cairo_, std::round(x), std::round(top));
-    pango_cairo_show_layout(cairo_, layout);
+void Setter::put(const Block& block, double left, double top) const {
+    if (!block.layout)
+        return;
+    cairo_move_to(cairo_, std::round(left - block.x), std::round(top - block.y));
+    pango_cairo_show_layout(cairo_, block.layout.get());
 }
 
 // The only thing on a page that is meant to be seen from across the room.
 void Setter::warning(const std::string& text) {
-    const Layout layout = lay(text, 0.8, true, 0.94 * width_);
+    Layout layout = lay(text, 0.8, true, 0.94 * width_);
     pango_layout_set_alignment(layout.get(), PANGO_ALIGN_CENTER);
-    const double height = extent(layout.get()).height + 0.8 * em_;
+    const Block band = boxed(std::move(layout));
+    const double height = band.height + 0.8 * em_;
     if (drawing) {
         ink(palette_.ink);
         cairo_rectangle(cairo_, 0, 0, width_, height);
         cairo_fill(cairo_);
         ink(palette_.ink < 0.5 ? 1 : 0);
-        put(layout.get(), 0.03 * width_, 0.4 * em_);
+        put(band, (width_ - band.width) / 2, 0.4 * em_);
     }
+    tooWide |= band.width > width_;
     y = height;
 }
 
-// Centred as a block, its lines flush left: a short line stands over the options, a long text
-// fills the column.
+// Centred as a block, its lines flush with the side from which they are read: a short line stands
+// over the options, a long text fills the column.
 void Setter::paragraph(const std::string& text, double size, bool bold) {
     if (text.empty())
         return;
-    const Layout layout = lay(text, size, bold, column());
-    const Extent block = extent(layout.get());
+    const Block lines = block(text, size, bold, column());
     if (drawing) {
         ink(palette_.ink);
-        put(layout.get(), (width_ - block.width) / 2, y);
+        put(lines, (width_ - lines.width) / 2, y);
     }
-    y += block.height;
+    tooWide |= lines.width > width_;
+    y += lines.height;
 }
 
+// Of what is too long for the field, the end is seen.
 void Setter::field(const std::string& typed) {
-    const Layout layout = lay(typed + "\u2502", 1.1, false, column() - 1.2 * em_);
-    const double fieldWidth = 18 * em_, height = 2.2 * em_, x = (width_ - fieldWidth) / 2;
+    const double fieldWidth = std::min(18 * em_, column()), height = 2.2 * em_;
+    const double x = (width_ - fieldWidth) / 2;
+    Layout layout = lay(typed + "\u2502", 1.1, false, fieldWidth - 1.2 * em_);
+    pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
+    pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_START);
+    const Block line = boxed(std::move(layout));
     if (drawing) {
         rounded(x, y, fieldWidth, height, 0.3 * em_);
         ink(palette_.card);
@@ -159,17 +209,22 @@ void Setter::field(const std::string& typed) {
         cairo_set_line_width(cairo_, 2);
         cairo_stroke(cairo_);
         ink(palette_.ink);
-        put(layout.get(), x + 0.6 * em_, y + (height - extent(layout.get()).height) / 2);
+        put(line, x + 0.6 * em_, y + (height - line.height) / 2);
     }
     y += height;
 }
 
-Setter::Card Setter::card(const Page::Option& option) const {
-    Card card{lay(option.key, 0.9, true, width_), lay(option.label, 1, false, 0.36 * width_)};
-    const Extent key = extent(card.key.get()), label = extent(card.label.get());
-    card.width = std::max(key.width, 1.0 * em_) + 1.0 * em_ + 1.6 * em_;
-    card.width += option.label.empty() ? 0 : label.width + 0.8 * em_;
-    card.height = std::max(key.height, label.height) + 1.8 * em_;
+// A key's cap, and beside it what the key says; together no wider than `widest`, if that can be.
+Setter::Card Setter::card(const Page::Option& option, double widest) const {
+    constexpr double around = 1.6, inCap = 1, beside = 0.8; // em
+    Card card;
+    card.key = block(option.key, 0.9, true, widest - (around + inCap) * em_);
+    card.width = std::max(card.key.width, em_) + (inCap + around) * em_;
+    if (!option.label.empty()) {
+        card.label = block(option.label, 1, false, widest - card.width - beside * em_);
+        card.width += card.label.width + beside * em_;
+    }
+    card.height = std::max(card.key.height, card.label.height) + 1.8 * em_;
     return card;
 }
 
@@ -181,30 +236,33 @@ void Setter::drawCard(const Card& card, double x, double width) const {
     cairo_set_line_width(cairo_, 2);
     cairo_stroke(cairo_);
 
-    const Extent key = extent(card.key.get()), label = extent(card.label.get());
-    const double capWidth = std::max(key.width, 1.0 * em_) + 1.0 * em_;
+    const Block &key = card.key, &label = card.label;
+    const double capWidth = std::max(key.width, em_) + em_;
     const double capHeight = key.height + 0.6 * em_;
     const double left = std::round(x + (width - card.width) / 2 + 0.8 * em_);
     const double middle = y + card.height / 2;
     ink(palette_.ink);
-    put(card.key.get(), left + (capWidth - key.width) / 2, middle - key.height / 2);
-    if (label.width == 0) // the card itself is the key
+    put(key, left + (capWidth - key.width) / 2, middle - key.height / 2);
+    if (!label.layout) // the card itself is the key
         return;
     rounded(left, middle - capHeight / 2, capWidth, capHeight, 0.25 * em_);
     cairo_stroke(cairo_);
-    put(card.label.get(), left + capWidth + 0.8 * em_, middle - label.height / 2);
+    put(label, left + capWidth + 0.8 * em_, middle - label.height / 2);
 }
 
-// Side by side, of one size, centred: the first image's option is the left one.
+// Side by side, of one size, centred: the first image's option is the left one, as its arrow key
+// is, whichever way the words run.
 std::vector<Box> Setter::options(const std::vector<Page::Option>& options) {
+    const double space = 1.6 * em_, count = static_cast<double>(options.size());
+    const double room = width_ - 2 * em_ - (count - 1) * space;
     std::vector<Card> cards;
     double width = 0, height = 0;
     for (const Page::Option& option : options) {
-        cards.push_back(card(option));
+        cards.push_back(card(option, std::floor(room / count)));
         width = std::max(width, cards.back().width);
         height = std::max(height, cards.back().height);
     }
-    const double space = 1.6 * em_, count = static_cast<double>(cards.size());
+    tooWide |= count * width > room;
     double x = std::round((width_ - count * width - (count - 1) * space) / 2);
     std::vector<Box> boxes;
     for (Card& card : cards) {
@@ -256,7 +314,7 @@ std::optional<std::vector<Box>> trySize(cairo_t* cairo, const Page& page, const 
     const double top = setter.y, margin = 1.2 * em;
     const double content = place(setter, page, 0).bottom;
     const double room = height - top - 2 * margin;
-    if (content > room)
+    if (content > room || setter.tooWide)
         return std::nullopt;
 
     setter.drawing = true;
@@ -281,11 +339,39 @@ Image8 rgb(cairo_surface_t* surface, int width, int height) {
     return image;
 }
 
+// What a page says, in short and on one line.
+std::string opening(const Page& page) {
+    std::string words = page.heading.empty() ? page.text : page.heading;
+    std::replace_if(
+        words.begin(), words.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return fmt::format("\"{:.60}\"", words);
+}
+
+std::string named(char32_t character) {
+    if (character == PANGO_GLYPH_INVALID_INPUT)
+        return "bytes that are not UTF-8";
+    const std::string code = fmt::format("U+{:04X}", static_cast<unsigned>(character));
+    char bytes[6];
+    const int count = g_unichar_to_utf8(character, bytes);
+    return g_unichar_isprint(character)
+               ? fmt::format("{} ({})", std::string_view(bytes, static_cast<std::size_t>(count)),
+                             code)
+               : code;
+}
+
+bool isControl(char c) {
+    return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t') ||
+           c == 0x7f;
+}
+
 } // namespace
 
 DrawnPage drawPage(const Page& page, int width, int height, int grey) {
     const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
     const Cairo cairo(cairo_create(surface.get()));
+    if (const cairo_status_t status = cairo_status(cairo.get()); status != CAIRO_STATUS_SUCCESS)
+        throw Error(fmt::format("a page of {}x{} pixels cannot be drawn: {}", width, height,
+                                cairo_status_to_string(status)));
     const FontOptions fontOptions(cairo_font_options_create());
     cairo_font_options_set_antialias(fontOptions.get(), CAIRO_ANTIALIAS_GRAY);
     cairo_font_options_set_hint_style(fontOptions.get(), CAIRO_HINT_STYLE_SLIGHT);
@@ -294,15 +380,38 @@ DrawnPage drawPage(const Page& page, int width, int height, int grey) {
     cairo_set_source_rgb(cairo.get(), palette.paper, palette.paper, palette.paper);
     cairo_paint(cairo.get());
 
-    const double largest = std::min(height / 27.0, width / 40.0);
+    const double largest = std::max(smallestType, std::min(height / 27.0, width / 40.0));
     for (int percent = 100; percent >= 60; percent -= 5) {
-        const double em = std::round(largest * percent / 100);
+        const double em = std::max(smallestType, std::round(largest * percent / 100));
         if (auto options = trySize(cairo.get(), page, palette, width, height, em))
             return {rgb(surface.get(), width, height), std::move(*options)};
     }
     throw Error(fmt::format("a text is too long for a screen of {}x{} pixels, even in small type: "
-                            "\"{:.60}...\"; shorten it in the protocol",
-                            width, height, page.text));
+                            "{}; shorten it in the protocol, or take a larger screen",
+                            width, height, opening(page)));
+}
+
+// Where a font lacks a character, Pango's glyph is the character itself with a flag.
+std::vector<std::string> unshowable(const std::string& text) {
+    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+    const Cairo cairo(cairo_create(surface.get()));
+    const Layout layout = layOut(cairo.get(), text, 2 * smallestType, false);
+    std::set<char32_t> missing;
+    for (const char c : text)
+        if (isControl(c))
+            missing.insert(static_cast<char32_t>(c));
+    const LayoutIter iter(pango_layout_get_iter(layout.get()));
+    do {
+        const PangoLayoutRun* run = pango_layout_iter_get_run_readonly(iter.get());
+        for (int i = 0; run && i < run->glyphs->num_glyphs; ++i)
+            if (const PangoGlyph glyph = run->glyphs->glyphs[i].glyph;
+                glyph & PANGO_GLYPH_UNKNOWN_FLAG)
+                missing.insert(
+                    glyph == PANGO_GLYPH_INVALID_INPUT ? glyph : glyph & ~PANGO_GLYPH_UNKNOWN_FLAG);
+    } while (pango_layout_iter_next_run(iter.get()));
+    std::vector<std::string> names;
+    std::transform(missing.begin(), missing.end(), std::back_inserter(names), named);
+    return names;
 }
 
 } // namespace obscura

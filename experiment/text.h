@@ -39,8 +39,13 @@ struct DrawnPage {
 
 // Sets a page on the study's grey, in near-black or near-white, whichever contrasts more. The type
 // is sized to be read at arm's length (a capital letter is about 1/50 of the screen's height) in
-// lines of at most some 65 characters; a long text is set smaller, down to 3/5 of that. An Error
-// says so when it does not fit even then.
+// lines of at most some 65 characters; a long text is set smaller, down to 3/5 of that, but never
+// too small to read. An Error says so when it does not fit even then. Paragraphs run from left to
+// right or from right to left, as their first letter does.
 DrawnPage drawPage(const Page& page, int width, int height, int grey);
+
+// The characters of a text for which no installed font has a glyph, so that only boxes would be
+// drawn, each once and as people look them up: "図 (U+56F3)". Control characters are among them.
+std::vector<std::string> unshowable(const std::string& text);
 
 } // namespace obscura

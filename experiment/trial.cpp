@@ -134,12 +134,14 @@ void TrialMachine::press(gl::Key key, double time) {
 }
 
 void TrialMachine::pressSpace(double time) {
-    const bool seen = viewed(screen_, time) >= minimumView_;
-    if (screen_ == Screen::start)
+    const bool image = screen_ == Screen::first || screen_ == Screen::second;
+    if (image && viewed(screen_, time) < minimumView_)
+        ++record_.hastyPresses;
+    else if (screen_ == Screen::start)
         go(Screen::first);
-    else if (screen_ == Screen::first && seen)
+    else if (screen_ == Screen::first)
         go(Screen::mask);
-    else if (screen_ == Screen::second && seen)
+    else if (screen_ == Screen::second)
         go(Screen::question);
 }
 

@@ -32,6 +32,7 @@ struct TrialRecord {
     double onset1 = 0, view1 = 0, mask = 0, onset2 = 0, view2 = 0, questionOnset = 0, decision = 0;
     int maskFramesPlanned = 0, maskFramesShown = 0, missedFrames = 0;
     int earlyPresses = 0; // keys pressed between the end of image 1 and the onset of image 2
+    int hastyPresses = 0; // of Space, before its image had been on the screen for minimumView
     bool interrupted = false;
     int chosen = 0;                    // 1 or 2; 0 until answered
     std::vector<double> maskIntervals; // between its refreshes
@@ -44,8 +45,10 @@ struct TrialRecord {
 //
 // A key counts only for a picture that is already on the screen, and only when it was up before:
 // what is pressed in the mask is counted and dropped, even Escape; a key held down repeats nothing.
-// Escape elsewhere asks whether to end the session. If that, or a lost focus, broke the exposure
-// of an image, the trial goes on but is marked interrupted: a half-seen pair cannot be unseen.
+// Space does not end an image that has been on the screen for less than minimumView: two taps in a
+// row would lose it for good. Escape elsewhere asks whether to end the session. If that, or a lost
+// focus, broke the exposure of an image, the trial goes on but is marked interrupted: a half-seen
+// pair cannot be unseen.
 class TrialMachine {
   public:
     enum class Next {

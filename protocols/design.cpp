@@ -79,13 +79,10 @@ json toJson(const ExGaussian& time) {
 }
 
 json toJson(const Texts& texts) {
-    const auto& [instructions, start, question, first, second, thanks] = texts;
-    return {{"instructions", instructions},
-            {"start", start},
-            {"question", question},
-            {"first", first},
-            {"second", second},
-            {"thanks", thanks}};
+    json words;
+    for (const TextKey& key : textKeys())
+        words[std::string(key.name)] = texts.*key.text;
+    return words;
 }
 
 // Conditions by their ids, since their order is no matter of the pictures.

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 namespace obscura {
@@ -22,7 +23,7 @@ const T& find(const std::vector<T>& items, const std::string& name) {
 template <typename T>
 std::string reference(TomlTable& table, std::string_view key, const std::vector<T>& items,
                       std::string_view kind) {
-    const std::string name = table.text(key);
+    std::string name = table.text(key);
     mustExist(table.placeOf(*table.node(key), table.pathOf(key)), name, items, kind);
     return name;
 }
@@ -96,7 +97,7 @@ std::string parseMember(TomlTable& condition, const toml::node& node, std::size_
         throw Error(place, fmt::format("expected the name of a technique under [techniques], "
                                        "found {}",
                                        TomlTable::spell(node)));
-    const std::string name = *named->value<std::string>();
+    std::string name = *named->value<std::string>();
     mustExist(place, name, protocol.techniques, "a technique under [techniques]");
     return name;
 }
@@ -178,15 +179,25 @@ Ordering parseOrdering(TomlTable table) {
     return ordering;
 }
 
+// Braces that stand around no number's name are a misspelt one.
+void checkProgress(const std::string& text, const Place& place) {
+    static const std::regex numbers(R"(\{pairs?\})");
+    if (std::regex_replace(text, numbers, "").find_first_of("{}") != std::string::npos)
+        throw Error(place, fmt::format("expected no braces but those of {{pair}} and {{pairs}}, "
+                                       "found \"{}\"",
+                                       text));
+}
+
 Texts parseTexts(TomlTable table) {
     Texts texts;
-    texts.instructions = table.text("instructions");
-    texts.start = table.text("start");
-    texts.question = table.text("question");
-    texts.first = table.text("first");
-    texts.second = table.text("second");
-    texts.thanks = table.text("thanks");
+    for (const TextKey& key : textKeys()) {
+        std::string& text = texts.*key.text;
+        text = table.text(key.name, key.compulsory ? std::nullopt : std::optional(text));
+        if (const toml::node* node = table.node(key.name))
+            texts.places[std::string(key.name)] = table.placeOf(*node, table.pathOf(key.name));
+    }
     table.finish();
+    checkProgress(texts.progress, texts.places["progress"]);
     return texts;
 }
 
@@ -245,6 +256,31 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
 }
 
 } // namespace
+
+std::span<const TextKey> textKeys() {
+    static const std::vector<TextKey> keys = {
+        {"instructions", &Texts::instructions, true},
+        {"start", &Texts::start, true},
+        {"question", &Texts::question, true},
+        {"first", &Texts::first, true},
+        {"second", &Texts::second, true},
+        {"thanks", &Texts::thanks, true},
+        {"progress", &Texts::progress},
+        {"space", &Texts::space},
+        {"anyKey", &Texts::anyKey},
+        {"loading", &Texts::loading},
+        {"unfocused", &Texts::unfocused},
+        {"leave", &Texts::leave},
+        {"leaveNote", &Texts::leaveNote},
+        {"stay", &Texts::stay},
+        {"end", &Texts::end},
+        {"id", &Texts::id},
+        {"idNote", &Texts::idNote},
+        {"idMalformed", &Texts::idMalformed},
+        {"idTaken", &Texts::idTaken},
+    };
+    return keys;
+}
 
 const View& Protocol::view(const std::string& wanted) const { return find(views, wanted); }
 const Level& Protocol::level(const std::string& wanted) const { return find(levels, wanted); }

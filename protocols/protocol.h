@@ -5,8 +5,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -106,9 +109,9 @@ struct Condition {
 
 // image 1, grey mask, image 2, forced choice.
 struct Trial {
-    double mask = 2;        // seconds of grey between the images; cannot be skipped
-    int grey = 128;         // code value of mask and surround, 0 ... 255
-    double minimumView = 0; // seconds during which Space does not yet end an image
+    double mask = 2;          // seconds of grey between the images; cannot be skipped
+    int grey = 128;           // code value of mask and surround, 0 ... 255
+    double minimumView = 0.5; // seconds during which Space does not yet end an image
 };
 
 enum class OrderScheme { thesis };
@@ -118,10 +121,32 @@ struct Ordering {
     int participants = 28; // planned; what --simulate runs when no number is given
 };
 
-// What participants read, UTF-8.
+// Everything that participants read, UTF-8. A study says what it asks; the rest is English unless
+// it says otherwise, so that a study in another language can translate all of it.
 struct Texts {
     std::string instructions, start, question, first, second, thanks;
+    std::string progress = "{pair} / {pairs}"; // above `start`, with the numbers put in
+    std::string space = "Space";               // the key's name
+    std::string anyKey = "Press any key to end.";
+    std::string loading = "Loading the pictures. Please wait.";
+    std::string unfocused = "The keyboard is elsewhere: click here to go on";
+    std::string leave = "End the session?", leaveNote = "Answers given so far are kept.";
+    std::string stay = "Continue", end = "End";
+    std::string id = "Type the participant's pseudonym and press Enter.";
+    std::string idNote = "Letters and digits. Escape ends the program.";
+    std::string idMalformed = "A pseudonym is 1 to 32 letters (a-z) and digits.";
+    std::string idTaken = "There are data of this participant and session. Type another "
+                          "pseudonym, or press Escape and start with another --session.";
+
+    std::map<std::string, Place, std::less<>> places; // of the keys that the protocol has
 };
+
+struct TextKey {
+    std::string_view name; // under [texts]
+    std::string Texts::*text;
+    bool compulsory = false;
+};
+std::span<const TextKey> textKeys();
 
 // The stated model of simulated reaction: times are ex-Gaussian (mean and standard deviation of
 // the Gaussian part, mean of the exponential part), in seconds.

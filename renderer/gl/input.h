@@ -20,7 +20,7 @@ enum class Key : int {
 
 // What a window was told, stamped when it arrived (seconds on the window's clock).
 struct Input {
-    enum class Kind { press, release, text, click, focusLost, exposed, close };
+    enum class Kind { press, release, text, click, focusLost, focusGained, exposed, close };
 
     Kind kind = Kind::press;
     double time = 0;

@@ -158,8 +158,8 @@ void Window::listen() {
         self(window).inputs_.push_back(input);
     });
     glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* window, int focused) {
-        if (!focused)
-            self(window).inputs_.push_back(self(window).stamped(Input::Kind::focusLost));
+        self(window).inputs_.push_back(
+            self(window).stamped(focused ? Input::Kind::focusGained : Input::Kind::focusLost));
     });
     glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* window) {
         self(window).inputs_.push_back(self(window).stamped(Input::Kind::exposed));
@@ -227,6 +227,14 @@ std::vector<Input> Window::wait() {
 
 void Window::showCursor(bool visible) {
     glfwSetInputMode(window_.get(), GLFW_CURSOR, visible ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_HIDDEN);
+}
+
+bool Window::focused() const {
+    return glfwGetWindowAttrib(window_.get(), GLFW_FOCUSED) == GLFW_TRUE;
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_.get(), title.c_str());
 }
 
 } // namespace obscura::gl

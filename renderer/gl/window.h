@@ -68,6 +68,8 @@ class Window {
     std::vector<Input> poll(); // what has arrived, without waiting
     std::vector<Input> wait(); // sleeps until something arrives
     void showCursor(bool visible);
+    bool focused() const; // whether the keyboard is ours
+    void setTitle(const std::string& title);
 
   private:
     // GLFW itself, for as long as its window lives.

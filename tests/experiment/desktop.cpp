@@ -26,6 +26,8 @@ struct Desktop::Connection {
 };
 
 Desktop::Desktop(int width, int height) : width_(width), height_(height) {
+    // A window may be gone between being listed and being asked; Xlib would end the test program.
+    XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
     start(width, height);
     connection_ = std::make_unique<Connection>(name_);
     if (!connection_->display)
@@ -78,9 +80,11 @@ void Desktop::release(unsigned long keySymbol) {
     XSync(connection_->display, False);
 }
 
+// The server stamps in milliseconds, and GLFW takes a second press of the same stamp for an echo.
 void Desktop::tap(unsigned long keySymbol) {
     press(keySymbol);
     release(keySymbol);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
 }
 
 void Desktop::type(const std::string& lettersAndDigits) {
@@ -121,18 +125,28 @@ Image8 Desktop::look() const {
     return image;
 }
 
-bool Desktop::awaits(const Image8& expected, double seconds) const {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    do {
-        if (look().pixels == expected.pixels) {
-            // Nobody reacts sooner, and the presenter rightly ignores a key pressed before it
-            // knows that the picture is on the screen.
-            std::this_thread::sleep_for(std::chrono::milliseconds(200));
-            return true;
+std::string Desktop::title() const {
+    Display* display = connection_->display;
+    Window root = 0, parent = 0, *children = nullptr;
+    unsigned count = 0;
+    if (!XQueryTree(display, DefaultRootWindow(display), &root, &parent, &children, &count))
+        return "";
+    std::string found;
+    for (unsigned i = 0; i < count; ++i)
+        if (char* name = nullptr; XFetchName(display, children[i], &name) && name) {
+            if (const std::string text = name; text.starts_with("Obscura"))
+                found = text;
+            XFree(name);
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    } while (std::chrono::steady_clock::now() < end);
-    return false;
+    XFree(children);
+    return found;
+}
+
+bool Desktop::hasKeyboard() const {
+    Window window = 0;
+    int revertTo = 0;
+    XGetInputFocus(connection_->display, &window, &revertTo);
+    return window != None && window != PointerRoot;
 }
 
 } // namespace obscura::test

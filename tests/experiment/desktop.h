@@ -29,8 +29,11 @@ class Desktop {
     void takeFocus();
     void returnFocus();
 
-    Image8 look() const;                                       // the whole screen, RGB
-    bool awaits(const Image8& expected, double seconds) const; // until the screen shows just that
+    Image8 look() const; // the whole screen, RGB
+    // Of the presenter's window; "" when there is none. It changes once the presenter knows that
+    // what it names is on the screen, and keys count.
+    std::string title() const;
+    bool hasKeyboard() const; // any window
 
   private:
     struct Connection;

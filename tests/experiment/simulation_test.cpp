@@ -70,6 +70,20 @@ TEST_F(SimulationTest, SameSeedSameRows) {
     EXPECT_NE(one, other);
 }
 
+TEST_F(SimulationTest, LooksNoShorterThanTheMinimumView) {
+    const Study tiny = study({.minimumView = 5});
+    const auto rows = simulate(tiny, folder.path() / "data", 3, 1);
+    for (const Response& row : rows) {
+        EXPECT_GE(row.view1Ms, 5000);
+        EXPECT_GE(row.view2Ms, 5000);
+    }
+    const DataFolder data(folder.path() / "data", tiny.protocol);
+    for (const char* id : {"S01", "S02", "S03"})
+        EXPECT_THAT(readFile(data.journal({id, 1, true})),
+                    testing::Not(HasSubstr("presses_ignored")))
+            << "nor presses in vain";
+}
+
 TEST_F(SimulationTest, RowsAreWholeAndMarked) {
     const auto rows = simulate(study({.mask = 2}), folder.path() / "data", 8, 1);
     ASSERT_EQ(rows.size(), 56u);

@@ -1,6 +1,7 @@
 #include "experiment/pages.h"
 #include "protocols/error.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,12 +11,32 @@
 namespace obscura {
 namespace {
 
-const Texts texts{"First line.\n\nÆblegrød, 日本語, Ελληνικά – all of UTF-8.",
-                  "Press Space to see the next pair.",
-                  "Which looked most realistic?",
-                  "The first image",
-                  "The second image",
-                  "Thank you."};
+Texts withWords(const std::string& instructions, const std::string& start,
+                const std::string& question, const std::string& first, const std::string& second,
+                const std::string& thanks) {
+    Texts texts;
+    texts.instructions = instructions;
+    texts.start = start;
+    texts.question = question;
+    texts.first = first;
+    texts.second = second;
+    texts.thanks = thanks;
+    return texts;
+}
+
+const Texts texts = withWords("First line.\n\nÆblegrød, שלום, Ελληνικά – all of UTF-8.",
+                              "Press Space to see the next pair.", "Which looked most realistic?",
+                              "The first image", "The second image", "Thank you.");
+
+const std::string arabicWords = "ترى صورتين واحدة بعد الأخرى ثم تختار الأكثر واقعية. ";
+const Texts arabic =
+    withWords(arabicWords + arabicWords + arabicWords + "\n\n" + arabicWords, "اضغط مفتاح المسافة.",
+              "أي صورة بدت أكثر واقعية؟", "الأولى", "الثانية", "شكرا لكم!");
+const Texts hebrew = withWords("תראו שתי תמונות, זו אחר זו.", "הקישו על מקש הרווח.",
+                               "איזו תמונה נראתה מציאותית יותר?", "הראשונה", "השנייה", "תודה רבה!");
+const Texts mixed = withWords("English first.\nثم العربية.\nואז עברית.", "Press המקש now.",
+                              "Which of الصورتين looked real?", "الأولى (1)", "the second – השנייה",
+                              "شكرا / thanks");
 
 struct Size {
     int width, height;
@@ -49,9 +70,9 @@ TEST(Text, SurroundIsTheStudysGrey) {
 
 TEST(Text, EveryPageFitsEveryScreen) {
     for (const Size size : sizes)
-        for (const Page& page :
-             {instructionsPage(texts), startPage(texts, 3, 7), questionPage(texts), leavePage(),
-              thanksPage(texts), idPage("P01", "")}) {
+        for (const Page& page : {instructionsPage(texts), startPage(texts, 3, 7),
+                                 questionPage(texts), leavePage(texts), thanksPage(texts),
+                                 idPage(texts, "P01", ""), loadingPage(texts, 3, 14)}) {
             const DrawnPage drawn = drawPage(page, size.width, size.height, 128);
             EXPECT_EQ(drawn.image.width, size.width);
             const auto [top, bottom] = inkedRows(drawn.image, 128);
@@ -104,16 +125,137 @@ TEST(Text, TheShippedProtocolsFitTheirScreens) {
         ++found;
         const Protocol protocol = readProtocol(entry.path());
         for (Page page : {instructionsPage(protocol.texts), startPage(protocol.texts, 7, 7),
-                          questionPage(protocol.texts), thanksPage(protocol.texts)}) {
+                          questionPage(protocol.texts), leavePage(protocol.texts),
+                          thanksPage(protocol.texts)}) {
             page.warning = "Untimed display: not suitable for data collection";
-            EXPECT_NO_THROW(drawPage(page, protocol.width, protocol.height, protocol.trial.grey))
+            EXPECT_NO_THROW(drawPage(unfocused(page, protocol.texts), protocol.width,
+                                     protocol.height, protocol.trial.grey))
                 << entry.path();
         }
     }
     EXPECT_GT(found, 0);
 }
 
-TEST(Text, StartPageCountsPairs) { EXPECT_EQ(startPage(texts, 3, 7).heading, "3 / 7"); }
+// The first and last column with ink in rows [top, bottom), ink being near-black.
+std::pair<int, int> inkedColumns(const Image8& image, int top, int bottom) {
+    std::pair<int, int> columns{image.width, -1};
+    for (int y = top; y < bottom; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if (image.pixels[static_cast<std::size_t>((y * image.width + x) * 3)] < 60) {
+                columns.first = std::min(columns.first, x);
+                columns.second = std::max(columns.second, x);
+            }
+    return columns;
+}
+
+// Also in windows of odd shapes.
+constexpr Size oddSizes[] = {{320, 240},  {640, 400},   {500, 900},  {1280, 720},
+                             {2000, 500}, {3840, 2160}, {7680, 4320}};
+
+TEST(Text, FromRightToLeftStaysInTheMiddle) {
+    for (const Texts* words : {&arabic, &hebrew, &mixed, &texts})
+        for (const Size size : oddSizes)
+            for (const Page& page : {instructionsPage(*words), startPage(*words, 3, 7),
+                                     thanksPage(*words), idPage(*words, "P01", words->question)}) {
+                const Image8 image = drawPage(page, size.width, size.height, 128).image;
+                const auto [left, right] = inkedColumns(image, 0, size.height);
+                ASSERT_GT(left, 0) << size.width << ' ' << page.text;
+                ASSERT_LT(right, size.width - 1) << size.width << ' ' << page.text;
+                EXPECT_NEAR(left, size.width - 1 - right, 0.04 * size.width)
+                    << size.width << ' ' << page.text;
+            }
+}
+
+TEST(Text, FromRightToLeftStaysOnItsCard) {
+    for (const Texts* words : {&arabic, &hebrew, &mixed, &texts})
+        for (const Size size : oddSizes) {
+            const DrawnPage drawn = drawPage(questionPage(*words), size.width, size.height, 128);
+            const Box &one = drawn.options.at(0), &two = drawn.options.at(1);
+            const auto [left, right] = inkedColumns(drawn.image, one.y, one.y + one.height);
+            EXPECT_GT(left, one.x) << size.width;
+            EXPECT_LT(right, two.x + two.width) << size.width;
+            // Each card holds its key, and right of it ink of its label.
+            for (const Box& box : {one, two}) {
+                int inked = 0;
+                for (int x = box.x + box.width / 2; x < box.x + box.width; ++x)
+                    for (int y = box.y; y < box.y + box.height; ++y)
+                        inked +=
+                            drawn.image.pixels[static_cast<std::size_t>((y * size.width + x) * 3)] <
+                            60;
+                EXPECT_GT(inked, 10) << size.width << ' ' << words->first;
+            }
+            for (int x = one.x + one.width + 2; x < two.x - 2; ++x)
+                for (int y = one.y; y < one.y + one.height; ++y)
+                    ASSERT_EQ(
+                        drawn.image.pixels[static_cast<std::size_t>((y * size.width + x) * 3)], 128)
+                        << "between the cards";
+        }
+}
+
+TEST(Text, LongWordsAreBroken) {
+    Texts longer = texts;
+    longer.start = longer.question = longer.first = std::string(150, 'w');
+    for (const Size size : sizes)
+        for (const Page& page : {startPage(longer, 1, 7), questionPage(longer)}) {
+            const Image8 image = drawPage(page, size.width, size.height, 128).image;
+            const auto [left, right] = inkedColumns(image, 0, size.height);
+            EXPECT_GT(left, 0);
+            EXPECT_LT(right, size.width - 1);
+        }
+}
+
+TEST(Text, OfWhatIsTooLongForTheFieldTheEndIsSeen) {
+    const Image8 thirty = drawPage(idPage(texts, std::string(60, 'w'), ""), 1280, 720, 128).image;
+    const Image8 more = drawPage(idPage(texts, std::string(90, 'w'), ""), 1280, 720, 128).image;
+    EXPECT_EQ(thirty.pixels, more.pixels);
+    const Image8 other =
+        drawPage(idPage(texts, std::string(89, 'w') + "i", ""), 1280, 720, 128).image;
+    EXPECT_NE(more.pixels, other.pixels);
+}
+
+TEST(Text, AScreenTooSmallToReadOnIsRefused) {
+    EXPECT_THAT([] { drawPage(instructionsPage(arabic), 120, 60, 128); },
+                testing::ThrowsMessage<Error>(
+                    testing::HasSubstr("too long for a screen of 120x60 pixels")));
+    EXPECT_THAT([] { drawPage(thanksPage(texts), 40000, 100, 128); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("40000x100")));
+}
+
+// U+0378 has never been assigned, so that no font has it.
+TEST(Text, NamesCharactersThatNoFontHas) {
+    EXPECT_THAT(unshowable("Plain, Ελληνικά, عربي, עברית\n\ttwo lines"), testing::IsEmpty());
+    EXPECT_THAT(unshowable("a\u0378b\u0378\x07"), testing::ElementsAre("U+0007", "U+0378"));
+    const auto chinese = unshowable("図");
+    if (!chinese.empty()) { // where no font for it is installed
+        EXPECT_THAT(chinese, testing::ElementsAre("図 (U+56F3)"));
+    }
+}
+
+TEST(Text, RefusesTextsThatNoFontCanShow) {
+    EXPECT_NO_THROW(checkShowable(arabic));
+    for (const TextKey& key : textKeys()) {
+        Texts odd = texts;
+        odd.*key.text += "\u0378";
+        odd.places[std::string(key.name)] = {"study.toml", 12, 9,
+                                             fmt::format("texts.{}", key.name)};
+        EXPECT_THAT(
+            [&] { checkShowable(odd); },
+            testing::ThrowsMessage<Error>(testing::HasSubstr(fmt::format(
+                "study.toml:12:9: texts.{}: no installed font can show U+0378", key.name))));
+    }
+    Texts many = texts;
+    for (int i = 0; i < 12; ++i)
+        many.start += static_cast<char>(1 + (i > 7 ? i + 5 : i));
+    EXPECT_THAT([&] { checkShowable(many); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("U+0008 and 4 more;")));
+}
+
+TEST(Text, StartPageCountsPairsInTheStudysWords) {
+    EXPECT_EQ(startPage(texts, 3, 7).heading, "3 / 7");
+    Texts german = texts;
+    german.progress = "Von {pairs} Paaren das {pair}.";
+    EXPECT_EQ(startPage(german, 3, 28).heading, "Von 28 Paaren das 3.");
+}
 
 TEST(Text, TheWarningIsABandAcrossTheTop) {
     Page page = questionPage(texts);

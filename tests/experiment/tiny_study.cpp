@@ -50,6 +50,7 @@ technique = "crytek"
 samples = 24
 [trial]
 mask = {}
+minimumView = {}
 [ordering]
 participants = 3
 [texts]
@@ -59,12 +60,13 @@ question = "Which looked most realistic?"
 first = "The first"
 second = "The second"
 thanks = "Thank you."
+{}
 [simulation]
 positionBias = {}
 {}
 )",
-                                   options.width, options.height, options.mask,
-                                   options.positionBias, options.simulation);
+                                   options.width, options.height, options.mask, options.minimumView,
+                                   options.texts, options.positionBias, options.simulation);
     for (std::size_t i = 0; i < tinyPreferences().size(); ++i)
         text += fmt::format("[[conditions]]\nid = \"c{}\"\nscene = \"box\"\nlevel = \"low\"\n"
                             "pair = [\"none\", \"crytek24\"]\nsimulatedPreference = {}\n",

@@ -33,6 +33,8 @@ struct TinyOptions {
     int width = 320, height = 180;
     double positionBias = 0;
     std::string simulation = {}; // further lines of [simulation]
+    std::string texts = {};      // and of [texts]
+    double minimumView = 0;      // seconds
 };
 
 // Simulated preference for member b of each condition.

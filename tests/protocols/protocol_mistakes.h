@@ -163,6 +163,10 @@ inline const Mistake mistakes[] = {
      "small.toml:1:1: texts: expected what participants read, found nothing; add \"texts\" here"},
     {"QuestionEmpty", "question = \"Which?\"", "question = \"\"",
      "small.toml:44:12: texts.question: expected a text that is not empty, found \"\""},
+    {"ProgressMisspelt", "thanks = \"Thanks\"",
+     "thanks = \"Thanks\"\nprogress = \"{pear} / {pairs}\"",
+     "small.toml:48:12: texts.progress: expected no braces but those of {pair} and {pairs}, found "
+     "\"{pear} / {pairs}\""},
     {"BiasTooLarge", "[texts]", "[simulation]\npositionBias = 0.7\n\n[texts]",
      "small.toml:42:16: simulation.positionBias: expected a number from -0.5 to 0.5, found 0.7"},
 };

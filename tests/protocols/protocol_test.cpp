@@ -113,6 +113,7 @@ TEST(Protocol, ShippedStudiesAreWell) {
         EXPECT_EQ(protocol.name, name);
         EXPECT_EQ(protocol.conditions.size(), 7u); // Table 4 of the thesis
         EXPECT_EQ(protocol.trial.mask, 2.0);
+        EXPECT_EQ(protocol.trial.minimumView, 0.5);
         EXPECT_EQ(protocol.width, 1280);
         EXPECT_EQ(protocol.height, 720);
     }
