@@ -2,8 +2,8 @@
 
 #include "renderer/builtin_atlas.h"
 #include "renderer/builtin_noise.h"
-#include "renderer/builtin_parallel.h"
 #include "renderer/builtin_textures.h"
+#include "renderer/parallel.h"
 
 #include <glm/gtc/constants.hpp>
 
@@ -90,7 +90,7 @@ Survey surveyOf(const Body& body) {
     const std::vector<Vertex>& vertices = survey.shape.vertices;
     survey.parts.resize(vertices.size());
     survey.open.resize(vertices.size());
-    onBothCores(vertices.size(), [&](std::size_t i) {
+    forEachInParallel(vertices.size(), [&](std::size_t i) {
         survey.parts[i] = static_cast<int>(nearestPart(body, vertices[i].position).part);
         survey.open[i] = openness(body, vertices[i]);
     });

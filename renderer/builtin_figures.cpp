@@ -1,8 +1,8 @@
 #include "renderer/builtin_masonry.h"
-#include "renderer/builtin_parallel.h"
 #include "renderer/builtin_people.h"
 #include "renderer/builtin_scenes.h"
 #include "renderer/builtin_textures.h"
+#include "renderer/parallel.h"
 
 #include <array>
 #include <utility>
@@ -63,7 +63,7 @@ void addFigure(Scene& scene, const char* name, Figure figure, const glm::mat4& p
 Scene figures() {
     const std::array<Body, 2> bodies{reader(), guard()};
     std::array<Figure, 2> models;
-    onBothCores(bodies.size(), [&](std::size_t i) { models[i] = modelled(bodies[i]); });
+    forEachInParallel(bodies.size(), [&](std::size_t i) { models[i] = modelled(bodies[i]); });
     Scene scene;
     addSurroundings(scene);
     addFigure(scene, "reader", std::move(models[0]), at({-0.46F, 0.30F, 0.0F}, 16));

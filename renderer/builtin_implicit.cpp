@@ -1,6 +1,6 @@
 #include "renderer/builtin_implicit.h"
 
-#include "renderer/builtin_parallel.h"
+#include "renderer/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -92,9 +92,10 @@ class Net {
 
     Shape surface() {
         findNear();
-        onBothCores(near_.size(), [this](std::size_t i) { sample(near_[i]); });
+        forEachInParallel(near_.size(), [this](std::size_t i) { sample(near_[i]); });
         forNear([&](glm::ivec3 cell) { addVertex(cell); });
-        onBothCores(shape_.vertices.size(), [this](std::size_t i) { settle(shape_.vertices[i]); });
+        forEachInParallel(shape_.vertices.size(),
+                          [this](std::size_t i) { settle(shape_.vertices[i]); });
         forNear([&](glm::ivec3 corner) { addFaces(corner); });
         for (int round = 0; round < 4; ++round) {
             unfold(shape_);

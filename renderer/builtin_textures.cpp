@@ -1,7 +1,7 @@
 #include "renderer/builtin_textures.h"
 
-#include "renderer/builtin_parallel.h"
 #include "renderer/builtin_shapes.h"
+#include "renderer/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,13 +57,13 @@ int keep(Scene& scene, Texture texture) {
 } // namespace
 
 int addColourTexture(Scene& scene, Image8 image) {
-    return keep(scene, {std::move(image), true, false, false});
+    return keep(scene, {std::move(image), true, Wrap::clamp, Wrap::clamp});
 }
 
 int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Painter& painter) {
     Texture colour = blank(canvas.size, true), gloss = blank(canvas.size, false);
     std::vector<float> heights(gloss.image.pixels.size() / 4);
-    onBothCores(heights.size(), [&](std::size_t pixel) {
+    forEachInParallel(heights.size(), [&](std::size_t pixel) {
         const int index = static_cast<int>(pixel);
         const glm::vec2 place(index % canvas.size, index / canvas.size);
         const Texel texel = painter((place + 0.5F) / part(canvas.size, 1));
@@ -71,7 +71,8 @@ int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Pai
         setTexel(gloss.image, pixel, {1, texel.roughness, 0, 1});
         heights[pixel] = texel.height;
     });
-    colour.repeatU = colour.repeatV = material.alphaCutoff == 0;
+    if (material.alphaCutoff > 0)
+        colour.wrapU = colour.wrapV = Wrap::clamp;
     material.baseColourTexture = keep(scene, std::move(colour));
     if (canvas.relief)
         material.normalTexture = keep(scene, normalsOf(heights, canvas));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <concepts>
 #include <functional>
 #include <thread>
 #include <vector>
@@ -9,20 +10,26 @@
 namespace obscura {
 
 // Calls work(i) for i = 0 ... count - 1 on so many threads, 0 for all cores; `progress` is told the
-// share done, from the calling thread. Work must not throw.
-inline void forEachInParallel(int count, const std::function<void(int)>& work,
-                              const std::function<void(double)>& progress = {}, int threads = 0) {
-    std::atomic<int> next{0};
+// share done, from the calling thread. Each thread takes some hundredths of the work at a time, so
+// that small pieces cost no more than large ones. Work must not throw, and what it does for one i
+// must not depend on another's.
+template <std::integral Index, typename Work>
+void forEachInParallel(Index count, const Work& work,
+                       const std::function<void(double)>& progress = {}, int threads = 0) {
+    const int all = threads > 0 ? threads : static_cast<int>(std::thread::hardware_concurrency());
+    const Index chunk = std::max<Index>(count / static_cast<Index>(128 * std::max(all, 1)), 1);
+    std::atomic<Index> next{0};
     const auto run = [&](bool tells) {
-        for (int i = next++; i < count; i = next++) {
-            work(i);
+        for (Index first = next.fetch_add(chunk); first < count; first = next.fetch_add(chunk)) {
+            const Index last = std::min<Index>(first + chunk, count);
+            for (Index i = first; i < last; ++i)
+                work(i);
             if (tells && progress)
-                progress(static_cast<double>(i + 1) / count);
+                progress(static_cast<double>(last) / static_cast<double>(count));
         }
     };
     std::vector<std::jthread> others;
-    const int all = static_cast<int>(std::thread::hardware_concurrency());
-    for (int i = 1; i < (threads > 0 ? threads : all); ++i)
+    for (int i = 1; i < all; ++i)
         others.emplace_back(run, false);
     run(true);
 }
