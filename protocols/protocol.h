@@ -25,7 +25,7 @@ struct Camera {
     Vec3 target{};          // the point looked at; its distance is the focus distance
     Vec3 up{0, 1, 0};       //
     double fovDegrees = 50; // vertical, 1 ... 120
-    double near = 0.05;     // metres
+    double near = 0;        // metres; 0: as the scene's size wants it (nearPlane)
 };
 
 // A scene seen from one camera.

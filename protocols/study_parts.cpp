@@ -27,7 +27,7 @@ Camera parseCamera(TomlTable table) {
     camera.target = table.triple("target", -farAway, farAway);
     camera.up = table.triple("up", -1, 1, camera.up);
     camera.fovDegrees = table.number("fovDegrees", 1, 120, camera.fovDegrees);
-    camera.near = table.number("near", 1e-4, 1e3, camera.near);
+    camera.near = table.number("near", 1e-7, 1e3, camera.near);
     table.finish();
 
     const Vec3 &p = camera.position, &t = camera.target, &u = camera.up;

@@ -2,8 +2,8 @@
 
 #include "renderer/builtin_atlas.h"
 #include "renderer/builtin_noise.h"
-#include "renderer/parallel.h"
 #include "renderer/builtin_textures.h"
+#include "renderer/parallel.h"
 
 #include <glm/gtc/constants.hpp>
 

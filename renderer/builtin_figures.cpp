@@ -1,8 +1,8 @@
 #include "renderer/builtin_masonry.h"
-#include "renderer/parallel.h"
 #include "renderer/builtin_people.h"
 #include "renderer/builtin_scenes.h"
 #include "renderer/builtin_textures.h"
+#include "renderer/parallel.h"
 
 #include <array>
 #include <utility>

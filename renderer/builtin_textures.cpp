@@ -1,7 +1,7 @@
 #include "renderer/builtin_textures.h"
 
-#include "renderer/parallel.h"
 #include "renderer/builtin_shapes.h"
+#include "renderer/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +57,7 @@ int keep(Scene& scene, Texture texture) {
 } // namespace
 
 int addColourTexture(Scene& scene, Image8 image) {
-    return keep(scene, {std::move(image), true, false, false});
+    return keep(scene, {std::move(image), true, Wrap::clamp, Wrap::clamp});
 }
 
 int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Painter& painter) {
@@ -71,7 +71,8 @@ int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Pai
         setTexel(gloss.image, pixel, {1, texel.roughness, 0, 1});
         heights[pixel] = texel.height;
     });
-    colour.repeatU = colour.repeatV = material.alphaCutoff == 0;
+    if (material.alphaCutoff > 0)
+        colour.wrapU = colour.wrapV = Wrap::clamp;
     material.baseColourTexture = keep(scene, std::move(colour));
     if (canvas.relief)
         material.normalTexture = keep(scene, normalsOf(heights, canvas));

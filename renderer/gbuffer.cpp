@@ -29,7 +29,17 @@ std::span<const std::byte> bytesOf(const std::vector<Vertex>& vertices) {
     return std::as_bytes(std::span(vertices));
 }
 
+// The scene's and OpenGL's names for the same thing.
+static_assert(static_cast<int>(Wrap::repeat) == static_cast<int>(gl::Wrap::repeat) &&
+              static_cast<int>(Wrap::mirrored) == static_cast<int>(gl::Wrap::mirrored) &&
+              static_cast<int>(Wrap::clamp) == static_cast<int>(gl::Wrap::clamp));
+
 } // namespace
+
+double nearPlane(const Camera& camera, const Bounds& bounds) {
+    const auto diagonal = static_cast<double>(glm::distance(bounds.low, bounds.high));
+    return camera.near > 0 ? camera.near : std::clamp(diagonal / 20, 1e-6, 0.05);
+}
 
 Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
                 std::uint64_t seed, glm::vec2 jitter, int guard) {
@@ -48,7 +58,8 @@ Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bound
     clipFromView[0][0] = scaleX;
     clipFromView[1][1] = scaleY;
     clipFromView[2] = {-shiftX, -shiftY, 0, -1};
-    clipFromView[3][2] = camera.near;
+    const double near = nearPlane(camera, bounds);
+    clipFromView[3][2] = near;
 
     Frame frame;
     frame.viewFromWorld = glm::mat4(viewFromWorld);
@@ -58,8 +69,7 @@ Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bound
         glm::vec4(2 / scaleX, 2 / scaleY, (-1 - shiftX) / scaleX, (-1 - shiftY) / scaleY);
     frame.size = glm::vec4(width, height, 1.0 / width, 1.0 / height);
     const double focus = glm::distance(vec(camera.position), vec(camera.target));
-    frame.depth =
-        glm::vec4(camera.near, emptyDepth(viewFromWorld, bounds, camera.near), focus, scaleY / 2);
+    frame.depth = glm::vec4(near, emptyDepth(viewFromWorld, bounds, near), focus, scaleY / 2);
     frame.seed = glm::ivec4(static_cast<int>(seed & 0x7fffffff), 0, 0, 0);
     return frame;
 }
@@ -69,9 +79,10 @@ GpuScene::GpuScene(const Scene& scene)
       geometry_(bytesOf(scene.vertices), std::array{3, 3, 4, 2}, scene.indices),
       white_(gl::constantTexture({1, 1, 1, 1})) {
     for (const Texture& texture : scene.textures)
-        textures_.push_back(gl::imageTexture(texture.image.width, texture.image.height,
-                                             texture.srgb, texture.image.pixels,
-                                             {texture.repeatU, texture.repeatV}));
+        textures_.push_back(gl::imageTexture(
+            texture.image.width, texture.image.height, texture.srgb, texture.image.pixels,
+            {static_cast<gl::Wrap>(texture.wrapU), static_cast<gl::Wrap>(texture.wrapV),
+             texture.nearest}));
 }
 
 const gl::Texture& GpuScene::texture(int index) const {

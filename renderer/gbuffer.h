@@ -17,6 +17,10 @@ namespace obscura {
 Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
                 std::uint64_t seed, glm::vec2 jitter = {0, 0}, int guard = 0);
 
+// Metres before the camera at which it begins to see: the camera's own near plane, or else 5 cm,
+// and less in a scene that is less than 1 m across: a twentieth of its diagonal.
+double nearPlane(const Camera& camera, const Bounds& bounds);
+
 // A scene where the GPU can read it.
 class GpuScene {
   public:

@@ -1,166 +1,129 @@
 #include "protocols/error.h"
-#include "protocols/files.h"
+#include "renderer/gltf_accessor.h"
+#include "renderer/gltf_check.h"
+#include "renderer/gltf_file.h"
+#include "renderer/gltf_materials.h"
+#include "renderer/gltf_piece.h"
 #include "renderer/scene.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
-#include <tiny_gltf.h>
 
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 #include <map>
 #include <optional>
-#include <thread>
+#include <set>
 
 namespace obscura {
 
 namespace fs = std::filesystem;
+using fmt::format;
 
 namespace {
 
-// tinygltf decodes images itself; ours keeps their bytes for OpenImageIO.
-bool keepEncoded(tinygltf::Image* image, int, std::string*, std::string*, int, int,
-                 const unsigned char* bytes, int size, void*) {
-    image->image.assign(bytes, bytes + size);
-    image->as_is = true;
-    return true;
-}
+constexpr int deepestNode = 256;
+constexpr std::size_t mostTriangles = 50'000'000; // of all instances together: some 7 GB
 
-// Reads files for tinygltf and hashes each of them.
-struct HashedFiles {
-    Sha256 hash;
-
-    static bool read(std::vector<unsigned char>* out, std::string* error, const std::string& path,
-                     void* self) {
-        try {
-            const std::string content = readFile(path);
-            static_cast<HashedFiles*>(self)->hash.add(content);
-            out->assign(content.begin(), content.end());
-            return true;
-        } catch (const Error& problem) {
-            *error += problem.what();
-            return false;
-        }
-    }
-};
-
-tinygltf::Model readModel(const fs::path& path, HashedFiles& files) {
+// tinygltf reads the structure alone: buffers, images and everything that is not shown are ours or
+// nobody's, so that it opens no file and trusts no length.
+tinygltf::Model modelOf(const GltfFile& file) {
+    nlohmann::json structure;
+    for (const char* key : {"asset", "scene", "scenes", "nodes", "meshes", "materials", "textures",
+                            "samplers", "accessors", "bufferViews", "skins"})
+        if (file.root().contains(key))
+            structure[key] = file.root().at(key);
+    const std::string text =
+        structure.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     tinygltf::TinyGLTF reader;
-    reader.SetImageLoader(keepEncoded, nullptr);
-    reader.SetFsCallbacks({[](const std::string& name, void*) { return fs::exists(name); },
-                           [](const std::string& name, void*) { return name; }, HashedFiles::read,
-                           nullptr, &files});
-    const std::string content = readFile(path);
-    files.hash.add(content);
-    const auto size = static_cast<unsigned>(content.size());
-    const std::string folder = path.parent_path().string();
     tinygltf::Model model;
     std::string errors, warnings;
-    const bool binary = content.starts_with("glTF");
-    const bool read =
-        binary
-            ? reader.LoadBinaryFromMemory(&model, &errors, &warnings,
-                                          reinterpret_cast<const unsigned char*>(content.data()),
-                                          size, folder)
-            : reader.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size, folder);
-    // A missing texture is only a warning to tinygltf; to us the scene would be another.
-    if (!read || warnings.find("not found") != std::string::npos ||
-        warnings.find("Failed to load") != std::string::npos) {
-        std::string reason = errors.empty() ? warnings : errors;
-        std::replace(reason.begin(), reason.end(), '\n', ' ');
-        throw Error({path.string(), 0, 0, {}},
-                    fmt::format("expected a whole glTF 2.0 scene: {}", reason));
+    if (!reader.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
+                                    static_cast<unsigned>(text.size()), "")) {
+        std::replace(errors.begin(), errors.end(), '\n', ' ');
+        failGltf(file.path(), "", "expected a glTF 2.0 scene: " + errors);
     }
     return model;
+}
+
+bool finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
 // One loading: the model on one side, the scene on the other.
 class Loader {
   public:
-    explicit Loader(const fs::path& path) : path_(path), model_(readModel(path, files_)) {}
+    explicit Loader(const fs::path& path)
+        : file_(path), model_(modelOf(file_)),
+          materials_(file_, model_, [this](const std::string& message) { warn(message); }) {}
 
     Scene load() {
-        checkExtensions();
-        for (const tinygltf::Material& material : model_.materials)
-            scene_.materials.push_back(convert(material));
-        const int index = std::max(model_.defaultScene, 0);
+        warnOfExtensions();
+        scene_.materials = materials_.materials();
+        scene_.textures = materials_.textures();
         if (model_.scenes.empty())
-            fail("expected a scene, found none");
-        for (const int node : model_.scenes[static_cast<std::size_t>(index)].nodes)
-            addNode(node, glm::dmat4(1), 0);
+            failGltf(file_.path(), "scenes", "expected a scene, found none");
+        if (model_.defaultScene < 0 && model_.scenes.size() > 1)
+            warn(format("the file has {} scenes and says of none that it is to be shown; the first "
+                        "is",
+                        model_.scenes.size()));
+        worldFromNode_.resize(model_.nodes.size());
+        for (const int node :
+             model_.scenes[static_cast<std::size_t>(std::max(model_.defaultScene, 0))].nodes)
+            place(node, glm::dmat4(1), 0);
+        for (const int node : placed_)
+            addMeshOf(node);
         if (scene_.indices.empty())
-            fail("expected triangles, found none");
-        if (!model_.animations.empty())
-            warn("animations are not played: the scene is shown in its bind pose");
-        decodeTextures();
-        scene_.sha256 = files_.hash.hex();
+            failGltf(file_.path(), "", "expected triangles, found none");
+        if (file_.root().contains("animations") && !file_.root().at("animations").empty())
+            warn("animations are not played: the scene is shown as its nodes stand in the file");
+        warnOfNormalMaps();
+        scene_.sha256 = file_.sha256();
         return std::move(scene_);
     }
 
   private:
-    [[noreturn]] void fail(const std::string& message) const {
-        throw Error({path_.string(), 0, 0, {}}, message);
-    }
     void warn(const std::string& message) {
-        if (std::find(scene_.warnings.begin(), scene_.warnings.end(), message) ==
-            scene_.warnings.end())
+        if (said_.insert(message).second)
             scene_.warnings.push_back(message);
     }
 
-    void checkExtensions() {
-        for (const std::string& name : model_.extensionsRequired)
-            fail(fmt::format("the scene requires the extension {}, which is not supported; export "
-                             "it without",
-                             name));
-        for (const std::string& name : model_.extensionsUsed)
-            warn(fmt::format("extension {} is not supported; it is left out", name));
+    // Once for each material: its meshes may be hundreds.
+    void warnOfNormalMaps() {
+        for (const auto& [material, sum] : undirected_)
+            if (sum.lost > 0)
+                warn(format("material \"{}\": its normal map has no direction at {} of {} vertices "
+                            "({} is the first mesh with such), whose tangents or texture "
+                            "coordinates are missing or degenerate; the vertex normal stands in",
+                            scene_.materials[static_cast<std::size_t>(material)].name, sum.lost,
+                            sum.all, sum.first));
     }
 
-    // Materials -----------------------------------------------------------------------------
-
-    // The scene's index of a glTF texture as `srgb` or data; -1 for none.
-    int textureIndex(int index, int coordinates, bool srgb, const std::string& material) {
-        if (index < 0)
-            return -1;
-        if (coordinates != 0)
-            fail(fmt::format("material \"{}\" uses texture coordinate set {}; only set 0 is "
-                             "supported",
-                             material, coordinates));
-        const auto [at, added] =
-            textures_.try_emplace({index, srgb}, static_cast<int>(textures_.size()));
-        return at->second;
+    // Those that the file says it uses, and those that it uses without saying so.
+    void warnOfExtensions() {
+        std::set<std::string> names;
+        for (const nlohmann::json& name :
+             file_.root().value("extensionsUsed", nlohmann::json::array()))
+            names.insert(name.get<std::string>());
+        collectExtensions(file_.root(), names);
+        names.erase(
+            "KHR_mesh_quantization"); // needs nothing but the component types that it allows
+        for (const std::string& name : names)
+            warn(format("extension {} is not supported; it is left out", name));
     }
 
-    Material convert(const tinygltf::Material& from) {
-        Material to;
-        to.name = from.name;
-        const auto& pbr = from.pbrMetallicRoughness;
-        to.baseColour = glm::vec4(glm::make_vec4(pbr.baseColorFactor.data()));
-        to.baseColourTexture = textureIndex(pbr.baseColorTexture.index,
-                                            pbr.baseColorTexture.texCoord, true, from.name);
-        to.metallic = static_cast<float>(pbr.metallicFactor);
-        to.roughness = static_cast<float>(pbr.roughnessFactor);
-        to.metallicRoughnessTexture =
-            textureIndex(pbr.metallicRoughnessTexture.index, pbr.metallicRoughnessTexture.texCoord,
-                         false, from.name);
-        to.normalTexture =
-            textureIndex(from.normalTexture.index, from.normalTexture.texCoord, false, from.name);
-        to.normalScale = static_cast<float>(from.normalTexture.scale);
-        to.doubleSided = from.doubleSided;
-        if (from.alphaMode == "MASK")
-            to.alphaCutoff = std::max(static_cast<float>(from.alphaCutoff), 1e-6f);
-        if (from.alphaMode == "BLEND")
-            warn(fmt::format("material \"{}\" is translucent; it is drawn opaque", from.name));
-        if (from.occlusionTexture.index >= 0)
-            warn("baked occlusion textures are left out: they would stand in for the technique");
-        if (from.emissiveTexture.index >= 0 ||
-            *std::max_element(from.emissiveFactor.begin(), from.emissiveFactor.end()) > 0)
-            warn(fmt::format("material \"{}\" emits light; emission is left out", from.name));
-        return to;
+    static void collectExtensions(const nlohmann::json& value, std::set<std::string>& names) {
+        for (const auto& [key, item] : value.items()) {
+            if (value.is_object() && key == "extensions" && item.is_object())
+                for (const auto& [name, content] : item.items())
+                    names.insert(name);
+            if (item.is_structured() && key != "extras")
+                collectExtensions(item, names);
+        }
     }
 
-    // Geometry ------------------------------------------------------------------------------
+    // Nodes -------------------------------------------------------------------------------------
 
     static glm::dmat4 transformOf(const tinygltf::Node& node) {
         if (!node.matrix.empty())
@@ -169,290 +132,354 @@ class Loader {
         if (!node.translation.empty())
             result[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1);
         if (!node.rotation.empty())
-            result *= glm::mat4_cast(
-                glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]));
+            result *= glm::mat4_cast(glm::normalize(glm::dquat(
+                node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])));
         if (!node.scale.empty())
             for (int i = 0; i < 3; ++i)
                 result[i] *= node.scale[static_cast<std::size_t>(i)];
         return result;
     }
 
-    void addNode(int index, const glm::dmat4& parent, int depth) {
-        if (depth > 256)
-            fail("the nodes are nested more than 256 deep, or in a circle");
-        const tinygltf::Node& node = model_.nodes.at(static_cast<std::size_t>(index));
-        const glm::dmat4 transform = parent * transformOf(node);
-        if (node.skin >= 0)
-            warn("skins are left out: skinned meshes are shown in their bind pose");
-        if (node.mesh >= 0)
-            for (const tinygltf::Primitive& primitive :
-                 model_.meshes.at(static_cast<std::size_t>(node.mesh)).primitives)
-                addPrimitive(primitive, transform);
-        for (const int child : node.children)
-            addNode(child, transform, depth + 1);
+    // Where each node of the scene is, in its order: joints may come after what hangs on them.
+    void place(int index, const glm::dmat4& parent, int depth) {
+        const auto i = static_cast<std::size_t>(index);
+        const std::string at = format("nodes[{}]", index);
+        if (worldFromNode_[i])
+            failGltf(file_.path(), at,
+                     "expected a tree of nodes, found two ways to this one, or a circle");
+        if (depth > deepestNode)
+            failGltf(file_.path(), at,
+                     format("expected nodes nested at most {} deep, found deeper", deepestNode));
+        worldFromNode_[i] = parent * transformOf(model_.nodes[i]);
+        placed_.push_back(index);
+        for (const int child : model_.nodes[i].children)
+            place(child, *worldFromNode_[i], depth + 1);
     }
 
-    // The elements of an accessor as floats, `components` of each, normalised integers expanded.
-    std::vector<float> floats(int index, int components) const {
-        const tinygltf::Accessor& accessor = model_.accessors.at(static_cast<std::size_t>(index));
-        if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) <
-            components)
-            fail(fmt::format("accessor {} has too few components", index));
-        std::vector<float> result(accessor.count * static_cast<std::size_t>(components));
-        forEachElement(accessor, index, [&](std::size_t i, const unsigned char* element) {
-            for (int c = 0; c < components; ++c)
-                result[i * static_cast<std::size_t>(components) + static_cast<std::size_t>(c)] =
-                    component(element, accessor, c);
-        });
+    void addMeshOf(int index) {
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
+        if (node.mesh < 0)
+            return;
+        const auto& primitives = model_.meshes[static_cast<std::size_t>(node.mesh)].primitives;
+        for (std::size_t i = 0; i < primitives.size(); ++i)
+            addPrimitive(primitives[i], node.skin, *worldFromNode_[static_cast<std::size_t>(index)],
+                         format("meshes[{}].primitives[{}]", node.mesh, i));
+    }
+
+    // Skins -------------------------------------------------------------------------------------
+
+    // From the mesh to the world by each joint, as the joints' nodes stand in the file.
+    std::vector<glm::dmat4> jointsOf(int skin) const {
+        const tinygltf::Skin& from = model_.skins[static_cast<std::size_t>(skin)];
+        std::optional<GltfAccessor> inverse;
+        const std::string at = format("skins[{}]", skin);
+        if (from.inverseBindMatrices >= 0) {
+            inverse.emplace(file_, model_, from.inverseBindMatrices);
+            if (inverse->components() != 16 || inverse->count() < from.joints.size())
+                failGltf(file_.path(), at + ".inverseBindMatrices",
+                         format("expected a matrix of 16 for each of {} joints, found {} of {}",
+                                from.joints.size(), inverse->count(), inverse->components()));
+        }
+        std::vector<glm::dmat4> joints;
+        for (std::size_t j = 0; j < from.joints.size(); ++j) {
+            const auto& world = worldFromNode_[static_cast<std::size_t>(from.joints[j])];
+            glm::dmat4 joint = world.value_or(glm::dmat4(1));
+            if (inverse) {
+                glm::dmat4 bind(1);
+                for (int c = 0; c < 16; ++c)
+                    bind[c / 4][c % 4] = inverse->value(j, c);
+                joint *= bind;
+            }
+            joints.push_back(joint);
+        }
+        return joints;
+    }
+
+    // From the mesh to the world for each vertex: section 3.7.3.3. A skinned mesh hangs on its
+    // joints alone, wherever its own node is.
+    std::vector<glm::dmat4> skinned(const tinygltf::Primitive& primitive, int skin,
+                                    const std::vector<std::uint32_t>& used,
+                                    const std::string& at) const {
+        const auto joints = attribute(primitive, "JOINTS_0", at),
+                   weights = attribute(primitive, "WEIGHTS_0", at);
+        if (!joints || !weights)
+            failGltf(file_.path(), at + ".attributes",
+                     "expected JOINTS_0 and WEIGHTS_0 of a skinned mesh, found only one or none");
+        const std::vector<glm::dmat4> matrices = jointsOf(skin);
+        std::vector<glm::dmat4> result;
+        for (const std::uint32_t vertex : used) {
+            if (vertex >= joints->count() || vertex >= weights->count())
+                failGltf(
+                    file_.path(), at + ".attributes.JOINTS_0",
+                    format("expected as many elements as POSITION has, found {} and {} weights",
+                           joints->count(), weights->count()));
+            glm::dmat4 sum(0);
+            double total = 0;
+            for (int k = 0; k < 4; ++k) {
+                const auto joint = static_cast<std::size_t>(joints->value(vertex, k));
+                const auto weight = static_cast<double>(weights->value(vertex, k));
+                if (!(weight > 0))
+                    continue;
+                if (joint >= matrices.size())
+                    failGltf(file_.path(), at + ".attributes.JOINTS_0",
+                             format("joint {} of vertex {} points past the {} joints of its skin",
+                                    joint, vertex, matrices.size()));
+                sum += weight * matrices[joint];
+                total += weight;
+            }
+            result.push_back(total > 0 ? sum / total : glm::dmat4(1));
+        }
         return result;
     }
 
-    template <typename Visit>
-    void forEachElement(const tinygltf::Accessor& accessor, int index, Visit visit) const {
-        if (accessor.sparse.isSparse || accessor.bufferView < 0)
-            fail(fmt::format("accessor {} is sparse or empty, which is not supported", index));
-        const auto& view = model_.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
-        const auto& buffer = model_.buffers.at(static_cast<std::size_t>(view.buffer)).data;
-        const int stride = accessor.ByteStride(view);
-        const auto size = static_cast<std::size_t>(
-            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
-            tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)));
-        const std::size_t start = view.byteOffset + accessor.byteOffset;
-        if (stride <= 0 || (accessor.count > 0 &&
-                            start + (accessor.count - 1) * static_cast<std::size_t>(stride) + size >
-                                buffer.size()))
-            fail(fmt::format("accessor {} reads past the end of its buffer", index));
-        for (std::size_t i = 0; i < accessor.count; ++i)
-            visit(i, buffer.data() + start + i * static_cast<std::size_t>(stride));
+    // Primitives --------------------------------------------------------------------------------
+
+    std::optional<GltfAccessor> attribute(const tinygltf::Primitive& primitive, const char* name,
+                                          const std::string& at) const {
+        const auto found = primitive.attributes.find(name);
+        if (found == primitive.attributes.end())
+            return std::nullopt;
+        return accessor(found->second, name, at + ".attributes." + name);
     }
 
-    template <typename T>
-    static T load(const unsigned char* at, int index) {
-        T value;
-        std::memcpy(&value, at + static_cast<std::size_t>(index) * sizeof(T), sizeof(T));
-        return value;
+    // With as many components as meshes may have there (section 3.7.2.1, and
+    // KHR_mesh_quantization).
+    GltfAccessor accessor(int index, const std::string& name, const std::string& at) const {
+        GltfAccessor result(file_, model_, index);
+        const int expected = name.starts_with("TEXCOORD")             ? 2
+                             : name == "POSITION" || name == "NORMAL" ? 3
+                                                                      : 4;
+        const bool whole = result.componentType() == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+        if (result.components() != expected || whole)
+            failGltf(file_.path(), at,
+                     format("expected an accessor of {} floats, bytes or shorts each, found "
+                            "accessors[{}] with {}{}",
+                            expected, index, result.components(), whole ? " of 32 bits" : ""));
+        return result;
     }
 
-    static float component(const unsigned char* element, const tinygltf::Accessor& accessor,
-                           int c) {
-        const auto normalised = [&](float value, float largest) {
-            return accessor.normalized ? std::max(value / largest, -1.0f) : value;
-        };
-        switch (accessor.componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return normalised(load<std::int8_t>(element, c), 127);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return normalised(load<std::uint8_t>(element, c), 255);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return normalised(load<std::int16_t>(element, c), 32767);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return normalised(load<std::uint16_t>(element, c), 65535);
-        default:
-            return load<float>(element, c);
-        }
-    }
-
-    std::vector<std::uint32_t> indicesOf(const tinygltf::Primitive& primitive,
-                                         std::size_t vertices) const {
-        std::vector<std::uint32_t> result;
+    // Which vertices the triangles have, three each.
+    std::vector<std::uint32_t> cornersOf(const tinygltf::Primitive& primitive, std::size_t vertices,
+                                         const std::string& at) const {
+        std::vector<std::uint32_t> order;
         if (primitive.indices < 0) {
+            limit(vertices, at);
             for (std::size_t i = 0; i < vertices; ++i)
-                result.push_back(static_cast<std::uint32_t>(i));
+                order.push_back(static_cast<std::uint32_t>(i));
         } else {
-            const auto& accessor = model_.accessors.at(static_cast<std::size_t>(primitive.indices));
-            const int type = accessor.componentType;
-            forEachElement(accessor, primitive.indices, [&](std::size_t, const unsigned char* at) {
-                result.push_back(
-                    type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT     ? load<std::uint32_t>(at, 0)
-                    : type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? load<std::uint16_t>(at, 0)
-                                                                     : load<std::uint8_t>(at, 0));
-            });
+            const GltfAccessor indices(file_, model_, primitive.indices);
+            const int type = indices.componentType();
+            if (indices.components() != 1 || (type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+                                              type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+                                              type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT))
+                failGltf(file_.path(), at + ".indices",
+                         format("expected an accessor of unsigned whole numbers, found "
+                                "accessors[{}] of another kind",
+                                primitive.indices));
+            limit(indices.count(), at);
+            for (std::size_t i = 0; i < indices.count(); ++i) {
+                order.push_back(indices.whole(i));
+                if (order.back() >= vertices)
+                    failGltf(file_.path(), format("{}.indices", at),
+                             format("index {} points past the {} vertices of its mesh",
+                                    order.back(), vertices));
+            }
         }
-        for (const std::uint32_t index : result)
-            if (index >= vertices)
-                fail(fmt::format("index {} points past the {} vertices of its mesh", index,
-                                 vertices));
-        if (result.size() % 3 != 0)
-            fail("expected three indices a triangle");
+        return triangles(std::move(order), primitive.mode, at);
+    }
+
+    void limit(std::size_t corners, const std::string& at) const {
+        if (scene_.indices.size() + corners > 3 * mostTriangles)
+            failGltf(
+                file_.path(), at,
+                format("expected a scene of at most {} triangles, all instances counted, found "
+                       "more",
+                       mostTriangles));
+    }
+
+    std::vector<std::uint32_t> triangles(std::vector<std::uint32_t> order, int mode,
+                                         const std::string& at) const {
+        if (mode == TINYGLTF_MODE_TRIANGLES || mode == -1) {
+            if (order.size() % 3 != 0)
+                failGltf(
+                    file_.path(), at,
+                    format("expected three vertices a triangle, found {} vertices", order.size()));
+            return order;
+        }
+        limit(3 * order.size(), at);
+        std::vector<std::uint32_t> result;
+        for (std::size_t i = 2; i < order.size(); ++i) {
+            const bool fan = mode == TINYGLTF_MODE_TRIANGLE_FAN;
+            const std::size_t odd = fan ? 0 : i % 2;
+            result.insert(result.end(), {fan ? order[0] : order[i - 2 + odd],
+                                         fan ? order[i - 1] : order[i - 1 - odd], order[i]});
+        }
         return result;
     }
 
-    std::optional<int> attribute(const tinygltf::Primitive& primitive, const char* name) const {
-        const auto at = primitive.attributes.find(name);
-        return at == primitive.attributes.end() ? std::nullopt : std::optional(at->second);
-    }
-
-    void addPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& worldFromMesh) {
-        if (primitive.mode != TINYGLTF_MODE_TRIANGLES && primitive.mode != -1) {
-            warn("points, lines, strips and fans are left out; only triangle lists are drawn");
+    void addPrimitive(const tinygltf::Primitive& primitive, int skin,
+                      const glm::dmat4& worldFromNode, const std::string& at) {
+        if (primitive.mode >= 0 && primitive.mode < TINYGLTF_MODE_TRIANGLES) {
+            warn("points and lines are left out");
             return;
         }
         if (!primitive.targets.empty())
             warn("morph targets are left out");
-        if (attribute(primitive, "COLOR_0"))
+        if (primitive.attributes.contains("COLOR_0"))
             warn("vertex colours are left out");
-        const auto position = attribute(primitive, "POSITION");
-        if (!position)
-            fail("a mesh has no positions");
-        std::vector<Vertex> vertices = readVertices(primitive, *position, worldFromMesh);
-        std::vector<std::uint32_t> indices = indicesOf(primitive, vertices.size());
-        if (glm::determinant(glm::dmat3(worldFromMesh)) < 0) // a mirrored mesh turns its triangles
-            for (std::size_t i = 0; i < indices.size(); i += 3)
-                std::swap(indices[i + 1], indices[i + 2]);
-        if (!attribute(primitive, "NORMAL"))
-            makeFlat(vertices, indices);
-        append(primitive, vertices, indices);
+        const auto positions = attribute(primitive, "POSITION", at);
+        if (!positions)
+            failGltf(file_.path(), at + ".attributes", "expected POSITION, found none");
+        Piece piece;
+        piece.corners = cornersOf(primitive, positions->count(), at);
+        // Only the vertices that the triangles use, in their order: buffers may be shared.
+        std::vector<std::uint32_t> used = piece.corners;
+        std::sort(used.begin(), used.end());
+        used.erase(std::unique(used.begin(), used.end()), used.end());
+        for (std::uint32_t& corner : piece.corners)
+            corner = static_cast<std::uint32_t>(std::lower_bound(used.begin(), used.end(), corner) -
+                                                used.begin());
+        piece.vertices.resize(used.size());
+        const std::vector<glm::dmat4> worldFromMesh =
+            skin < 0 ? std::vector{worldFromNode} : skinned(primitive, skin, used, at);
+        readPositions(*positions, used, worldFromMesh, at, piece);
+        readAttributes(primitive, positions->count(), used, worldFromMesh, at, piece);
+        const double turns = glm::determinant(glm::dmat3(worldFromMesh.front()));
+        if (turns < 0) // a mirrored mesh turns its triangles
+            for (std::size_t i = 0; i < piece.corners.size(); i += 3)
+                std::swap(piece.corners[i + 1], piece.corners[i + 2]);
+        if (!primitive.attributes.contains("NORMAL"))
+            makeFlat(piece);
+        else if (const std::size_t mended = mendNormals(piece))
+            warn(format("{}: {} normals have no direction; those of the triangles around stand in",
+                        at, mended));
+        append(primitive, std::move(piece), at);
     }
 
-    std::vector<Vertex> readVertices(const tinygltf::Primitive& primitive, int position,
-                                     const glm::dmat4& worldFromMesh) const {
-        const std::vector<float> positions = floats(position, 3);
-        std::vector<Vertex> vertices(positions.size() / 3);
-        const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(glm::dmat3(worldFromMesh)));
-        const auto read = [&](const char* name, int components, auto assign) {
-            const auto index = attribute(primitive, name);
-            if (!index)
-                return;
-            const std::vector<float> values = floats(*index, components);
-            if (values.size() != vertices.size() * static_cast<std::size_t>(components))
-                fail(fmt::format("attribute {} has another count than POSITION", name));
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                assign(vertices[i], &values[i * static_cast<std::size_t>(components)]);
-        };
-        for (std::size_t i = 0; i < vertices.size(); ++i)
-            vertices[i].position = glm::vec3(
-                worldFromMesh * glm::dvec4(glm::dvec3(glm::make_vec3(&positions[i * 3])), 1));
-        read("NORMAL", 3, [&](Vertex& vertex, const float* v) {
-            vertex.normal = safeNormal(glm::vec3(normalMatrix * glm::dvec3(glm::make_vec3(v))));
-        });
-        read("TANGENT", 4, [&](Vertex& vertex, const float* v) {
-            const glm::dvec3 tangent = glm::dmat3(worldFromMesh) * glm::dvec3(glm::make_vec3(v));
-            vertex.tangent = glm::vec4(safeNormal(glm::vec3(tangent)), v[3]);
-        });
-        read("TEXCOORD_0", 2,
-             [](Vertex& vertex, const float* v) { vertex.uv = glm::make_vec2(v); });
-        return vertices;
+    // One for all vertices, or one for each.
+    static const glm::dmat4& matrixOf(const std::vector<glm::dmat4>& all, std::size_t vertex) {
+        return all.size() == 1 ? all.front() : all[vertex];
     }
 
-    static glm::vec3 safeNormal(glm::vec3 v) {
-        const float length = glm::length(v);
-        return length > 0 ? v / length : glm::vec3(0, 1, 0);
+    // The inverse transposed but for a factor, of flattened meshes too: cofactors.
+    static glm::dmat3 normalMatrix(const glm::dmat3& m) {
+        return (glm::determinant(m) < 0 ? -1.0 : 1.0) *
+               glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
     }
 
-    // glTF: without normals, every triangle is flat.
-    static void makeFlat(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices) {
-        std::vector<Vertex> split;
-        for (std::size_t i = 0; i < indices.size(); i += 3) {
-            const Vertex &a = vertices[indices[i]], &b = vertices[indices[i + 1]],
-                         &c = vertices[indices[i + 2]];
-            const glm::vec3 normal =
-                safeNormal(glm::cross(b.position - a.position, c.position - a.position));
-            for (Vertex vertex : {a, b, c}) {
-                vertex.normal = normal;
-                split.push_back(vertex);
-            }
+    void readPositions(const GltfAccessor& positions, const std::vector<std::uint32_t>& used,
+                       const std::vector<glm::dmat4>& worldFromMesh, const std::string& at,
+                       Piece& piece) const {
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            const glm::dvec3 mesh(positions.value(used[i], 0), positions.value(used[i], 1),
+                                  positions.value(used[i], 2));
+            const glm::vec3 world(matrixOf(worldFromMesh, i) * glm::dvec4(mesh, 1));
+            // Beyond this, squares of lengths overflow.
+            if (!finite(world) ||
+                std::max({std::abs(world.x), std::abs(world.y), std::abs(world.z)}) > 1e15f)
+                failGltf(file_.path(), at + ".attributes.POSITION",
+                         format("expected finite positions, found ({}, {}, {}) as vertex {}, which "
+                                "is ({}, {}, {}) in the scene",
+                                mesh.x, mesh.y, mesh.z, used[i], world.x, world.y, world.z));
+            piece.vertices[i].position = world;
         }
-        vertices = std::move(split);
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            indices[i] = static_cast<std::uint32_t>(i);
     }
 
-    void append(const tinygltf::Primitive& primitive, const std::vector<Vertex>& vertices,
-                const std::vector<std::uint32_t>& indices) {
-        int material = primitive.material;
-        if (material < 0) { // glTF's default material
-            if (defaultMaterial_ < 0) {
-                defaultMaterial_ = static_cast<int>(scene_.materials.size());
-                scene_.materials.push_back({.name = "default", .metallic = 1});
+    void readAttributes(const tinygltf::Primitive& primitive, std::size_t count,
+                        const std::vector<std::uint32_t>& used,
+                        const std::vector<glm::dmat4>& worldFromMesh, const std::string& at,
+                        Piece& piece) {
+        const auto read = [&](const std::string& name, auto assign) {
+            const auto values = attribute(primitive, name.c_str(), at);
+            if (!values)
+                return;
+            if (values->count() != count)
+                failGltf(file_.path(), at + ".attributes." + name,
+                         format("expected the {} elements of POSITION, found {}", count,
+                                values->count()));
+            for (std::size_t i = 0; i < used.size(); ++i)
+                assign(
+                    piece.vertices[i], [&](int c) { return values->value(used[i], c); }, i);
+        };
+        read("NORMAL", [&](Vertex& vertex, const auto& value, std::size_t i) {
+            vertex.normal = direction(normalMatrix(glm::dmat3(matrixOf(worldFromMesh, i))) *
+                                      glm::dvec3(value(0), value(1), value(2)));
+        });
+        read("TANGENT", [&](Vertex& vertex, const auto& value, std::size_t i) {
+            const glm::vec3 tangent = direction(glm::dmat3(matrixOf(worldFromMesh, i)) *
+                                                glm::dvec3(value(0), value(1), value(2)));
+            vertex.tangent = glm::vec4(tangent, value(3) < 0 ? -1 : 1);
+        });
+        const int set = primitive.material < 0 ? 0 : materials_.coordinates(primitive.material);
+        std::size_t lost = 0;
+        read(format("TEXCOORD_{}", set), [&](Vertex& vertex, const auto& value, std::size_t) {
+            vertex.uv = {value(0), value(1)};
+            if (!std::isfinite(vertex.uv.x) || !std::isfinite(vertex.uv.y)) {
+                vertex.uv = glm::vec2(0);
+                ++lost;
             }
-            material = defaultMaterial_;
+        });
+        if (lost > 0)
+            warn(format("{}: {} texture coordinates are no finite numbers; 0 stands in", at, lost));
+    }
+
+    int materialOf(const tinygltf::Primitive& primitive) {
+        if (primitive.material >= 0)
+            return primitive.material;
+        if (defaultMaterial_ < 0) { // glTF's own
+            defaultMaterial_ = static_cast<int>(scene_.materials.size());
+            scene_.materials.push_back({.name = "default", .metallic = 1});
+        }
+        return defaultMaterial_;
+    }
+
+    void append(const tinygltf::Primitive& primitive, Piece piece, const std::string& at) {
+        const int index = materialOf(primitive);
+        const Material& material = scene_.materials[static_cast<std::size_t>(index)];
+        if (material.baseColourTexture >= 0) {
+            const Texture& texture =
+                scene_.textures[static_cast<std::size_t>(material.baseColourTexture)];
+            recentre(piece, texture.wrapU != Wrap::clamp, texture.wrapV != Wrap::clamp);
         }
         const auto firstVertex = static_cast<std::uint32_t>(scene_.vertices.size());
         const Mesh mesh{static_cast<std::uint32_t>(scene_.indices.size()),
-                        static_cast<std::uint32_t>(indices.size()), material};
-        scene_.vertices.insert(scene_.vertices.end(), vertices.begin(), vertices.end());
-        for (const std::uint32_t index : indices)
-            scene_.indices.push_back(firstVertex + index);
-        scene_.meshes.push_back(mesh);
-        if (scene_.materials[static_cast<std::size_t>(material)].normalTexture >= 0 &&
-            !attribute(primitive, "TANGENT"))
+                        static_cast<std::uint32_t>(piece.corners.size()), index};
+        scene_.vertices.insert(scene_.vertices.end(), piece.vertices.begin(), piece.vertices.end());
+        for (const std::uint32_t corner : piece.corners)
+            scene_.indices.push_back(firstVertex + corner);
+        if (mesh.indexCount > 0)
+            scene_.meshes.push_back(mesh);
+        if (material.normalTexture < 0)
+            return;
+        if (!primitive.attributes.contains("TANGENT"))
             deriveTangents(scene_, mesh);
-    }
-
-    // Textures ------------------------------------------------------------------------------
-
-    // Most of loading time: both cores take the next texture in turn.
-    void decodeTextures() {
-        scene_.textures.resize(textures_.size());
-        std::vector<std::pair<std::pair<int, bool>, int>> work(textures_.begin(), textures_.end());
-        std::atomic<std::size_t> next = 0;
-        std::vector<std::string> problems(work.size());
-        const auto decode = [&] {
-            for (std::size_t i; (i = next++) < work.size();)
-                try {
-                    const auto& [source, target] = work[i];
-                    scene_.textures[static_cast<std::size_t>(target)] =
-                        decodeTexture(source.first, source.second);
-                } catch (const std::exception& error) {
-                    problems[i] = error.what();
-                }
-        };
-        {
-            std::vector<std::jthread> threads;
-            for (unsigned i = 1; i < std::max(std::thread::hardware_concurrency(), 1u); ++i)
-                threads.emplace_back(decode);
-            decode();
+        Undirected& sum = undirected_[index];
+        if (const std::size_t lost = dropUnusableTangents(scene_, mesh)) {
+            sum.lost += lost;
+            sum.first = sum.first.empty() ? at : sum.first;
         }
-        for (const std::string& problem : problems)
-            if (!problem.empty())
-                fail(problem);
+        sum.all += piece.vertices.size();
     }
 
-    Texture decodeTexture(int index, bool srgb) const {
-        const tinygltf::Texture& texture = model_.textures.at(static_cast<std::size_t>(index));
-        if (texture.source < 0)
-            fail(fmt::format("texture {} has no image in a supported format", index));
-        const tinygltf::Image& image = model_.images.at(static_cast<std::size_t>(texture.source));
-        const bool png = image.image.size() > 1 && image.image[0] == 0x89;
-        Texture result;
-        result.srgb = srgb;
-        result.image =
-            readImage8(std::as_bytes(std::span(image.image)),
-                       (image.uri.empty() ? image.name : image.uri) + (png ? ".png" : ".jpg"), 4);
-        if (texture.sampler >= 0) {
-            const auto& sampler = model_.samplers.at(static_cast<std::size_t>(texture.sampler));
-            result.repeatU = sampler.wrapS != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-            result.repeatV = sampler.wrapT != TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        }
-        return result;
-    }
-
-    fs::path path_;
-    HashedFiles files_;
+    GltfFile file_;
     tinygltf::Model model_;
     Scene scene_;
-    std::map<std::pair<int, bool>, int> textures_; // (glTF texture, srgb) to index in scene_
+    std::set<std::string> said_;
+    GltfMaterials materials_;
+    struct Undirected { // vertices of a material with a normal map
+        std::size_t lost = 0, all = 0;
+        std::string first; // mesh with a lost one
+    };
+    std::map<int, Undirected> undirected_;                 // by material
+    std::vector<std::optional<glm::dmat4>> worldFromNode_; // of the scene's nodes
+    std::vector<int> placed_;                              // in the scene's order
     int defaultMaterial_ = -1;
 };
 
 } // namespace
 
-Scene loadScene(const fs::path& path) {
-    if (!fs::exists(path))
-        throw Error({path.string(), 0, 0, {}},
-                    "expected a glTF scene, found no such file; name the "
-                    "scenes folder by --scenes or OBSCURA_SCENES");
-    return Loader(path).load();
-}
+Scene loadScene(const fs::path& path) { return Loader(path).load(); }
 
-std::string sceneSha256(const fs::path& path) {
-    if (!fs::exists(path))
-        throw Error({path.string(), 0, 0, {}},
-                    "expected a glTF scene, found no such file; name the "
-                    "scenes folder by --scenes or OBSCURA_SCENES");
-    HashedFiles files;
-    readModel(path, files);
-    return files.hash.hex();
-}
+std::string sceneSha256(const fs::path& path) { return GltfFile(path).sha256(); }
 
 } // namespace obscura

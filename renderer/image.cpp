@@ -11,6 +11,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 
 namespace obscura {
 
@@ -42,12 +43,29 @@ std::vector<T> withChannels(const std::vector<T>& from, int have, int want, T op
     return to;
 }
 
+// Across or down: what every OpenGL 4.5 takes as a texture. Of pixels, so that a header that lies
+// costs no more than 1 GiB.
+constexpr int mostAcross = 16384;
+constexpr std::int64_t mostPixels = std::int64_t{1} << 28;
+
+void checkSize(const OIIO::ImageSpec& spec, const std::string& name) {
+    if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1 || spec.width > mostAcross ||
+        spec.height > mostAcross || std::int64_t{spec.width} * spec.height > mostPixels ||
+        spec.nchannels > 64 || spec.depth > 1)
+        throw Error(
+            {name, 0, 0, {}},
+            fmt::format("expected an image of at most {0} pixels across and down and {1} in "
+                        "all, found {2} x {3}; make it smaller",
+                        mostAcross, mostPixels, spec.width, spec.height));
+}
+
 template <typename ImageType>
 ImageType read(OIIO::ImageInput* input, const std::string& name, int channels) {
     if (!input)
         throw Error({name, 0, 0, {}},
                     fmt::format("expected an image, cannot read it: {}", OIIO::geterror()));
     const OIIO::ImageSpec& spec = input->spec();
+    checkSize(spec, name);
     ImageType image;
     image.width = spec.width;
     image.height = spec.height;

@@ -21,7 +21,7 @@ struct Options {
     std::string recipe, describe, preset, normals = "smooth";
     std::vector<std::string> settings;
     std::vector<double> camera;
-    double fovDegrees = 50, radius = 0.5, exposure = 0;
+    double fovDegrees = 50, near = 0, radius = 0.5, exposure = 0;
     int width = 1280, height = 720, antialiasing = 4;
     int seed = 1;
     fs::path out = "render.png";
@@ -121,6 +121,7 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     view.camera.position = {c[0], c[1], c[2]};
     view.camera.target = {c[3], c[4], c[5]};
     view.camera.fovDegrees = options.fovDegrees;
+    view.camera.near = options.near;
     view.radius = options.radius;
     view.exposure = options.exposure;
     protocol.views.push_back(view);
@@ -236,6 +237,10 @@ int run(int argc, char** argv) {
     app.add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
     app.add_option("--camera", options.camera, "position x y z, target x y z")->expected(6);
     app.add_option("--fov", options.fovDegrees, "vertical, degrees")->capture_default_str();
+    app.add_option("--near", options.near,
+                   "where the camera begins to see, metres; default 0.05, or a twentieth of the "
+                   "diagonal of a smaller scene")
+        ->check(CLI::Range(1e-7, 1e3));
     app.add_option("--exposure", options.exposure, "stops")->capture_default_str();
     app.add_option("--level", options.level, "low, moderate or high")
         ->check(CLI::IsMember({"low", "moderate", "high"}))

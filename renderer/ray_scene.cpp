@@ -39,16 +39,21 @@ class Complaints {
 
 struct AlphaMap {
     int width = 0, height = 0;
-    bool repeatU = true, repeatV = true;
+    Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+    bool nearest = false;
     std::vector<std::uint8_t> texels;
 
-    // OpenGL 4.5, section 8.14: GL_LINEAR with GL_REPEAT or GL_CLAMP_TO_EDGE; 0 ... 1.
+    // OpenGL 4.5, section 8.14: GL_NEAREST or GL_LINEAR with each wrap mode; 0 ... 1.
     float at(glm::vec2 uv) const {
+        if (nearest)
+            return texel(wrapped(std::floor(uv.x * static_cast<float>(width)), width, wrapU),
+                         wrapped(std::floor(uv.y * static_cast<float>(height)), height, wrapV)) *
+                   (1.0f / 255);
         const float u = uv.x * static_cast<float>(width) - 0.5f,
                     v = uv.y * static_cast<float>(height) - 0.5f;
         const float left = std::floor(u), low = std::floor(v);
-        const int x0 = wrapped(left, width, repeatU), x1 = wrapped(left + 1, width, repeatU);
-        const int y0 = wrapped(low, height, repeatV), y1 = wrapped(low + 1, height, repeatV);
+        const int x0 = wrapped(left, width, wrapU), x1 = wrapped(left + 1, width, wrapU);
+        const int y0 = wrapped(low, height, wrapV), y1 = wrapped(low + 1, height, wrapV);
         const float across = u - left, up = v - low;
         const float below = texel(x0, y0) * (1 - across) + texel(x1, y0) * across;
         const float above = texel(x0, y1) * (1 - across) + texel(x1, y1) * across;
@@ -60,10 +65,13 @@ struct AlphaMap {
         return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                       static_cast<std::size_t>(x)];
     }
-    static int wrapped(float place, int size, bool repeat) {
+    static int wrapped(float place, int size, Wrap wrap) {
         const float whole = static_cast<float>(size);
-        if (repeat)
-            place -= whole * std::floor(place / whole);
+        const float period = wrap == Wrap::mirrored ? 2 * whole : whole;
+        if (wrap != Wrap::clamp)
+            place -= period * std::floor(place / period);
+        if (place >= whole && wrap == Wrap::mirrored)
+            place = period - 1 - place;
         return static_cast<int>(std::clamp(place, 0.0f, whole - 1));
     }
 };
@@ -95,7 +103,8 @@ void skipHoles(const RTCFilterFunctionNArguments* arguments) {
 }
 
 AlphaMap alphaMap(const Texture& texture) {
-    AlphaMap map{texture.image.width, texture.image.height, texture.repeatU, texture.repeatV, {}};
+    AlphaMap map{texture.image.width, texture.image.height, texture.wrapU,
+                 texture.wrapV,       texture.nearest,      {}};
     for (std::size_t i = 3; i < texture.image.pixels.size(); i += 4)
         map.texels.push_back(texture.image.pixels[i]);
     return map;

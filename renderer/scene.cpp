@@ -1,6 +1,7 @@
 #include "renderer/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 namespace obscura {
@@ -18,12 +19,14 @@ Bounds Scene::bounds() const {
 
 void deriveTangents(Scene& scene, const Mesh& mesh) {
     const auto indices = std::span(scene.indices).subspan(mesh.firstIndex, mesh.indexCount);
+    if (indices.empty())
+        return;
     const auto [least, greatest] = std::minmax_element(indices.begin(), indices.end());
     struct Sum {
         glm::vec3 alongU{0}, alongV{0};
         bool used = false;
     };
-    std::vector<Sum> sums(mesh.indexCount == 0 ? 0 : *greatest - *least + 1);
+    std::vector<Sum> sums(*greatest - *least + 1);
     for (std::uint32_t i = 0; i < mesh.indexCount; i += 3) {
         const auto t = indices.subspan(i, 3);
         const Vertex &a = scene.vertices[t[0]], &b = scene.vertices[t[1]],
@@ -31,12 +34,13 @@ void deriveTangents(Scene& scene, const Mesh& mesh) {
         const glm::vec3 e = b.position - a.position, f = c.position - a.position;
         const glm::vec2 s = b.uv - a.uv, r = c.uv - a.uv;
         const float area = s.x * r.y - s.y * r.x;
-        if (area == 0)
-            continue;
+        const glm::vec3 alongU = (e * r.y - f * s.y) / area, alongV = (f * s.x - e * r.x) / area;
+        if (!std::isfinite(glm::dot(alongU, alongU) + glm::dot(alongV, alongV)))
+            continue; // no area of texture
         for (const std::uint32_t index : t) {
             Sum& sum = sums[index - *least];
-            sum.alongU += (e * r.y - f * s.y) / area;
-            sum.alongV += (f * s.x - e * r.x) / area;
+            sum.alongU += alongU;
+            sum.alongV += alongV;
             sum.used = true;
         }
     }
@@ -53,6 +57,24 @@ void deriveTangents(Scene& scene, const Mesh& mesh) {
         const float sign = glm::dot(glm::cross(n, tangent), sum.alongV) > 0 ? -1.0f : 1.0f;
         vertex.tangent = glm::vec4(glm::normalize(tangent), sign);
     }
+}
+
+std::size_t dropUnusableTangents(Scene& scene, const Mesh& mesh) {
+    if (mesh.indexCount == 0)
+        return 0;
+    const auto indices = std::span(scene.indices).subspan(mesh.firstIndex, mesh.indexCount);
+    const auto [least, greatest] = std::minmax_element(indices.begin(), indices.end());
+    std::size_t lost = 0;
+    for (Vertex& vertex :
+         std::span(scene.vertices).subspan(*least, std::size_t{*greatest} - *least + 1)) {
+        const glm::vec3 tangent(vertex.tangent), n = vertex.normal;
+        const glm::vec3 across = tangent - n * glm::dot(n, tangent);
+        if (glm::dot(across, across) > 1e-8f) // false of NaN
+            continue;
+        vertex.tangent = glm::vec4(0);
+        ++lost;
+    }
+    return lost;
 }
 
 } // namespace obscura

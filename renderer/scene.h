@@ -17,14 +17,18 @@ namespace obscura {
 struct Vertex {
     glm::vec3 position{0};
     glm::vec3 normal{0};
-    glm::vec4 tangent{0}; // w: sign of the bitangent; all zero where no normal map needs it
+    glm::vec4 tangent{0}; // w: sign of the bitangent; all zero where no normal map applies
     glm::vec2 uv{0};
 };
+
+// What a texture shows beyond its borders.
+enum class Wrap { repeat, mirrored, clamp };
 
 struct Texture {
     Image8 image;      // 4 channels, 8 bits
     bool srgb = false; // colour, not data
-    bool repeatU = true, repeatV = true;
+    Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+    bool nearest = false; // enlarged, its texels are squares
 };
 
 // glTF 2.0 metallic-roughness, as far as it is used. Texture indices are into Scene::textures,
@@ -74,6 +78,11 @@ std::string sceneSha256(const std::filesystem::path& path);
 
 // Derives per-vertex tangents from positions, normals and texture coordinates (Lengyel 2001).
 // Indices are into `scene.vertices`, three a triangle.
+// Vertices without a usable direction get none: zero.
 void deriveTangents(Scene& scene, const Mesh& mesh);
+
+// Sets tangents that are no direction, or the normal's, to zero, which shaders take for "no normal
+// map here"; how many of the mesh's vertices have none.
+std::size_t dropUnusableTangents(Scene& scene, const Mesh& mesh);
 
 } // namespace obscura

@@ -92,8 +92,23 @@ Texture targetTexture(int width, int height, Format format, const std::string& l
     return texture;
 }
 
+namespace {
+
+GLint modeOf(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::mirrored:
+        return GL_MIRRORED_REPEAT;
+    case Wrap::clamp:
+        return GL_CLAMP_TO_EDGE;
+    default:
+        return GL_REPEAT;
+    }
+}
+
+} // namespace
+
 Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba,
-                     Wrap wrap) {
+                     Sampling sampling) {
     Texture texture(GL_TEXTURE_2D);
     const int levels = std::bit_width(static_cast<unsigned>(std::max(width, height)));
     glTextureStorage2D(texture.name(), levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, width, height);
@@ -101,9 +116,9 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
                         rgba.data());
     glGenerateTextureMipmap(texture.name());
     setParameter(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    setParameter(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    setParameter(texture, GL_TEXTURE_WRAP_S, wrap.repeatU ? GL_REPEAT : GL_CLAMP_TO_EDGE);
-    setParameter(texture, GL_TEXTURE_WRAP_T, wrap.repeatV ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    setParameter(texture, GL_TEXTURE_MAG_FILTER, sampling.nearest ? GL_NEAREST : GL_LINEAR);
+    setParameter(texture, GL_TEXTURE_WRAP_S, modeOf(sampling.u));
+    setParameter(texture, GL_TEXTURE_WRAP_T, modeOf(sampling.v));
     // Colour only: software drivers take five times as long for it, and blurred relief at grazing
     // angles is not seen.
     if (srgb && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {

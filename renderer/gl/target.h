@@ -24,11 +24,13 @@ Texture targetTexture(int width, int height, Format format, const std::string& l
 
 // A texture with mipmaps, trilinear and anisotropic filtering. `rgba` rows from first to last
 // have v = 0 to v = 1.
-struct Wrap {
-    bool repeatU = true, repeatV = true;
+enum class Wrap { repeat, mirrored, clamp };
+struct Sampling {
+    Wrap u = Wrap::repeat, v = Wrap::repeat;
+    bool nearest = false; // texels are squares where they are enlarged
 };
 Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba,
-                     Wrap wrap);
+                     Sampling sampling);
 
 // Linear floats, 3 channels, filtered; repeats across, clamps at the top and bottom.
 Texture panoramaTexture(int width, int height, std::span<const float> rgb);

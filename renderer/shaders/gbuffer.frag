@@ -15,10 +15,12 @@ layout(location = 3) out vec4 occlusionNormalOut;
 
 vec3 shadingNormal() {
     vec3 n = normalize(viewNormal);
-    if (surface.w > 0.0) {
+    vec3 across = viewTangent.xyz - n * dot(n, viewTangent.xyz);
+    // Where the loader found no direction for the map's x, there is no map.
+    if (surface.w > 0.0 && dot(across, across) > 1e-8) {
         vec3 mapped = texture(normalMap, materialUv).xyz * 2.0 - 1.0;
         mapped.xy *= surface.w;
-        vec3 t = normalize(viewTangent.xyz - n * dot(n, viewTangent.xyz));
+        vec3 t = normalize(across);
         n = normalize(mat3(t, cross(n, t) * viewTangent.w, n) * mapped);
     }
     return gl_FrontFacing ? n : -n;
