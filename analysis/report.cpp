@@ -65,16 +65,20 @@ std::string results(const Findings& findings) {
            tableHtml(resultTable(findings.tallies), findings.tallies) + std::string(tableNote);
 }
 
-std::string contactSheet(const Manifest& stimuli) {
-    const std::filesystem::path path = stimuli.folder / stimuli.contactSheet.path;
-    const std::string bytes = readFile(path);
-    if (sha256(bytes) != stimuli.contactSheet.sha256)
-        throw Error({path.string(), 0, 0, {}},
-                    "not the contact sheet that the stimuli's manifest describes; run "
-                    "obscura-stimuli again");
-    return fmt::format("<figure><img alt=\"Every pair, its occlusion and its difference\" "
-                       "src=\"{}\"/></figure>\n",
-                       dataAddress("image/png", bytes));
+std::string contactSheets(const Manifest& stimuli) {
+    std::string html;
+    for (const FileRecord& sheet : stimuli.contactSheets) {
+        const std::filesystem::path path = stimuli.folder / sheet.path;
+        const std::string bytes = readFile(path);
+        if (sha256(bytes) != sheet.sha256)
+            throw Error({path.string(), 0, 0, {}},
+                        "not the contact sheet that the stimuli's manifest describes; run "
+                        "obscura-stimuli again");
+        html += fmt::format("<figure><img alt=\"Every pair, its occlusion and its difference\" "
+                            "src=\"{}\"/></figure>\n",
+                            dataAddress("image/png", bytes));
+    }
+    return html;
 }
 
 std::string occlusionTable(const Manifest& stimuli) {
@@ -103,7 +107,7 @@ std::string renderedBy(const Manifest& stimuli) {
 }
 
 std::string stimuliSection(const Manifest& stimuli) {
-    return "<h2>Stimuli</h2>\n" + contactSheet(stimuli) + occlusionTable(stimuli);
+    return "<h2>Stimuli</h2>\n" + contactSheets(stimuli) + occlusionTable(stimuli);
 }
 
 std::string factRow(const Fact& fact) {

@@ -240,13 +240,13 @@ void requireOwnChoice(const std::filesystem::path& folder) {
 void writeChoice(const std::filesystem::path& folder, const SweepStudy& study, const Budget& budget,
                  const Choice& choice) {
     writeFile(folder / "choice.csv", table(choice));
-    writeFigures(folder, {figureOf(study, budget, choice)});
     requireOwnChoice(folder);
     if (choice.chosen)
         writeFile(folder / "choice.toml",
                   fragment(study, budget, choice.candidates[*choice.chosen]));
     else
         std::filesystem::remove(folder / "choice.toml"); // ours, of an earlier budget
+    writeFigures(folder, {figureOf(study, budget, choice)});
 }
 
 } // namespace obscura

@@ -41,24 +41,12 @@ bool writeAll(int descriptor, std::string_view text) {
 
 } // namespace
 
-// Written under another name first, for a program may be killed between making a file and writing
-// its first line.
+// With its first lines at once, for a program may be killed between making a file and writing it.
 AppendFile AppendFile::create(const fs::path& path, std::string_view lines) {
-    const fs::path unfinished =
-        path.parent_path() / fmt::format(".{}.{}", path.filename().string(), ::getpid());
-    writeFile(unfinished, lines);
-    if (::renameat2(AT_FDCWD, unfinished.c_str(), AT_FDCWD, path.c_str(), RENAME_NOREPLACE) == 0)
-        return {path, 0, "cannot be opened"};
-    const int reason = errno;
-    fs::remove(unfinished);
-    if (reason == EEXIST)
+    if (!writeNewFile(path, lines))
         throw Error({path.string(), 0, 0, {}},
                     "expected to create a new file, found one of this name");
-    // A file system that cannot rename without replacing (NFS).
-    AppendFile file(path, O_CREAT | O_EXCL, "expected to create a new file");
-    if (!lines.empty())
-        file.append(lines);
-    return file;
+    return {path, 0, "cannot be opened"};
 }
 
 AppendFile AppendFile::openLocked(const fs::path& path, IsWhole whole) {

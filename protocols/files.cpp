@@ -76,14 +76,39 @@ std::optional<ProcessId> writerOf(std::string_view name) {
     return ProcessId::parse(name);
 }
 
-void publish(const fs::path& unfinished, const fs::path& path) {
+// Gives what was written its name; false where `mayReplace` is not and something has that name.
+bool publish(const fs::path& unfinished, const fs::path& path, bool mayReplace) {
     flushToDisk(unfinished);
-    std::error_code failed;
-    fs::rename(unfinished, path, failed);
+    // A hard link, unlike a rename, is never made over what is there.
+    const int failed = mayReplace ? ::rename(unfinished.c_str(), path.c_str())
+                                  : ::link(unfinished.c_str(), path.c_str());
+    if (failed && !mayReplace && errno == EEXIST)
+        return false;
     if (failed)
-        throw Error({path.string(), 0, 0, {}},
-                    fmt::format("cannot be replaced: {}", failed.message()));
+        fail(path, mayReplace ? "cannot be replaced" : "cannot be created");
     flushToDisk(folderOf(path));
+    return true;
+}
+
+bool write(const fs::path& path, std::string_view content, bool mayReplace) {
+    makeFolders(path.parent_path());
+    const fs::path unfinished = unfinishedPath(path);
+    // "x": never into what is there, be it a link.
+    File file = open(unfinished, "wbx", "cannot be written");
+    std::error_code ignored;
+    try {
+        if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
+            std::fflush(file.get()) != 0)
+            fail(path, "cannot be written to its end");
+        file.reset();
+        const bool done = publish(unfinished, path, mayReplace);
+        if (!mayReplace)
+            fs::remove(unfinished, ignored);
+        return done;
+    } catch (...) {
+        fs::remove(unfinished, ignored);
+        throw;
+    }
 }
 
 } // namespace
@@ -138,22 +163,10 @@ void removeUnfinishedFiles(const fs::path& folder) {
     }
 }
 
-void writeFile(const fs::path& path, std::string_view content) {
-    makeFolders(path.parent_path());
-    const fs::path unfinished = unfinishedPath(path);
-    // "x": never into what is there, be it a link.
-    File file = open(unfinished, "wbx", "cannot be written");
-    try {
-        if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
-            std::fflush(file.get()) != 0)
-            fail(path, "cannot be written to its end");
-        file.reset();
-        publish(unfinished, path);
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove(unfinished, ignored);
-        throw;
-    }
+void writeFile(const fs::path& path, std::string_view content) { write(path, content, true); }
+
+bool writeNewFile(const fs::path& path, std::string_view content) {
+    return write(path, content, false);
 }
 
 struct Sha256::State {

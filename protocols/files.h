@@ -19,6 +19,9 @@ void makeFolders(const std::filesystem::path& folder);
 // one, never half of one, also after a power cut. Creates missing parent folders.
 void writeFile(const std::filesystem::path& path, std::string_view content);
 
+// The same where there is no such file yet: false, and nothing is changed, when there is.
+bool writeNewFile(const std::filesystem::path& path, std::string_view content);
+
 // The text as a file name that every system and every page takes: what is no letter, digit, "-",
 // "_" or "." becomes "-".
 std::string plainName(std::string text);

@@ -302,7 +302,11 @@ Manifest readManifest(const std::filesystem::path& path) {
     root["height"].read(manifest.height);
     for (const Node& pair : root["pairs"].items())
         manifest.pairs.push_back(readPair(pair));
-    manifest.contactSheet = readFileRecord(root["contactSheet"]);
+    if (root.has("contactSheets"))
+        for (const Node& sheet : root["contactSheets"].items())
+            manifest.contactSheets.push_back(readFileRecord(sheet));
+    else // version 1 had one
+        manifest.contactSheets.push_back(readFileRecord(root["contactSheet"]));
     manifest.folder = path.parent_path();
     return manifest;
 }
@@ -317,6 +321,9 @@ void writeManifest(const std::filesystem::path& path, const Manifest& manifest) 
                          {"radius", pair.radius},
                          {"a", toJson(pair.a)},
                          {"b", toJson(pair.b)}});
+    json sheets = json::array();
+    for (const FileRecord& sheet : manifest.contactSheets)
+        sheets.push_back(toJson(sheet));
     const json root = {{"schemaVersion", newestVersion},
                        {"study", manifest.study},
                        {"title", manifest.title},
@@ -326,7 +333,7 @@ void writeManifest(const std::filesystem::path& path, const Manifest& manifest) 
                        {"width", manifest.width},
                        {"height", manifest.height},
                        {"pairs", pairs},
-                       {"contactSheet", toJson(manifest.contactSheet)}};
+                       {"contactSheets", sheets}};
     writeFile(path, root.dump(2) + "\n");
 }
 

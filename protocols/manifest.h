@@ -61,7 +61,7 @@ struct Manifest {
     std::string commit;
     int width = 0, height = 0;
     std::vector<PairRecord> pairs;
-    FileRecord contactSheet;
+    std::vector<FileRecord> contactSheets; // pages in order
 
     int schemaVersion = 2;        // of the file that was read
     std::filesystem::path folder; // where it was read from; paths are relative to it

@@ -39,10 +39,10 @@ void addMaterial(Sha256& hash, const Material& from) {
 }
 
 void addTexture(Sha256& hash, const Texture& texture) {
-    const auto& [image, srgb, repeatU, repeatV] = texture;
+    const auto& [image, srgb, wrapU, wrapV, nearest] = texture;
     const auto& [width, height, channels, pixels] = image;
-    hash.add(fmt::format("texture {} x {} x {} {} {} {}\n", width, height, channels, srgb, repeatU,
-                         repeatV));
+    hash.add(fmt::format("texture {} x {} x {} {} {} {} {}\n", width, height, channels, srgb,
+                         static_cast<int>(wrapU), static_cast<int>(wrapV), nearest));
     addBytes(hash, pixels);
 }
 

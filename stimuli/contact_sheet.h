@@ -3,10 +3,13 @@
 #include "protocols/manifest.h"
 #include "renderer/image.h"
 
+#include <vector>
+
 namespace obscura {
 
-// All pairs on one page, a row each: both images, both visibility buffers, and the absolute
-// difference of the images' code values, times four. Reads the files that the manifest names.
-Image8 contactSheet(const Manifest& manifest);
+// All pairs, a row each, on as many pages as that takes: both images, both visibility buffers, and
+// the absolute difference of the images' code values, times four. Reads the files that the manifest
+// names.
+std::vector<Image8> contactSheets(const Manifest& manifest);
 
 } // namespace obscura

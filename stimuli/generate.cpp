@@ -4,6 +4,7 @@
 #include "protocols/files.h"
 #include "protocols/version.h"
 #include "stimuli/contact_sheet.h"
+#include "stimuli/page.h"
 #include "stimuli/plan.h"
 
 #include <fmt/format.h>
@@ -253,7 +254,8 @@ void Verification::files() const {
         for (const auto& [kind, layer] : record.layers)
             file(layer);
     });
-    file(manifest_.contactSheet);
+    for (const FileRecord& sheet : manifest_.contactSheets)
+        file(sheet);
 }
 
 void Verification::driver(const ImageRecord& record) const {
@@ -362,8 +364,10 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     result.times = renderer.times();
 
     const double start = seconds();
-    result.manifest.contactSheet =
-        ImageWriter(folder).png("contact-sheet.png", contactSheet(result.manifest));
+    const std::vector<Image8> sheets = contactSheets(result.manifest);
+    for (std::size_t i = 0; i < sheets.size(); ++i)
+        result.manifest.contactSheets.push_back(
+            ImageWriter(folder).png(pageName("contact-sheet", i, sheets.size()), sheets[i]));
     result.writing += seconds() - start;
     writeManifest(folder / manifestName, result.manifest);
     fs::remove(folder / unfinishedName);

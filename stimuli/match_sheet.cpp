@@ -64,10 +64,9 @@ std::vector<Image8> matchSheet(const std::string& title, const Image& reference,
     const std::vector<PageRows> pages = pagesOf(techniques.size(), rowHeight, header + margin);
     std::vector<Image8> result;
     for (std::size_t i = 0; i < pages.size(); ++i)
-        result.push_back(sheetOf(
-            pages.size() == 1 ? title : fmt::format("{} ({} of {})", title, i + 1, pages.size()),
-            reference,
-            std::span(techniques).subspan(pages[i].first, pages[i].last - pages[i].first)));
+        result.push_back(
+            sheetOf(pageTitle(title, i, pages.size()), reference,
+                    std::span(techniques).subspan(pages[i].first, pages[i].last - pages[i].first)));
     return result;
 }
 

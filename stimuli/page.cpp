@@ -118,6 +118,10 @@ std::string pageName(const std::string& stem, std::size_t page, std::size_t page
     return pages == 1 ? stem + ".png" : fmt::format("{}-{}.png", stem, page + 1);
 }
 
+std::string pageTitle(const std::string& title, std::size_t page, std::size_t pages) {
+    return pages == 1 ? title : fmt::format("{} ({} of {})", title, page + 1, pages);
+}
+
 Image8 grey(const Image& visibility) {
     const Image8 code = quantised(visibility);
     Image8 result{code.width, code.height, 3, {}};

@@ -40,6 +40,9 @@ std::vector<PageRows> pagesOf(std::size_t rows, int rowHeight, int headerHeight)
 // "sheet.png" of an only page, else "sheet-1.png" and so on; `page` counts from 0.
 std::string pageName(const std::string& stem, std::size_t page, std::size_t pages);
 
+// The title itself, or with the page's number behind it.
+std::string pageTitle(const std::string& title, std::size_t page, std::size_t pages);
+
 // Visibility as code values, 3 channels.
 Image8 grey(const Image& visibility);
 // White where two images of visibility agree, red where the first is darker, blue where it is

@@ -71,7 +71,7 @@ inline std::filesystem::path writeStimuli(const std::filesystem::path& folder) {
     }
     const std::string picture = "\x89PNG, or so we say";
     writeFile(folder / "contact_sheet.png", picture);
-    manifest.contactSheet = {"contact_sheet.png", sha256(picture)};
+    manifest.contactSheets = {{"contact_sheet.png", sha256(picture)}};
     writeManifest(folder / "manifest.json", manifest);
     return folder;
 }

@@ -39,7 +39,8 @@ Manifest sample() {
     pair.b.meanOcclusion = 0.125;
     pair.b.layers["ao"] = {"b_ao.png", std::string(64, '2')};
     manifest.pairs.push_back(pair);
-    manifest.contactSheet = {"sheet.png", std::string(64, '3')};
+    manifest.contactSheets = {{"sheet-1.png", std::string(64, '3')},
+                              {"sheet-2.png", std::string(64, '4')}};
     return manifest;
 }
 

@@ -228,8 +228,9 @@ TEST(ContentHash, DiffersWithEverything) {
     change([](Scene& s) { s.materials[0].alphaCutoff = 0.5F; });
     change([](Scene& s) { s.materials[0].doubleSided = true; });
     change([](Scene& s) { s.textures[0].srgb = true; });
-    change([](Scene& s) { s.textures[0].repeatU = false; });
-    change([](Scene& s) { s.textures[0].repeatV = false; });
+    change([](Scene& s) { s.textures[0].wrapU = Wrap::clamp; });
+    change([](Scene& s) { s.textures[0].wrapV = Wrap::mirrored; });
+    change([](Scene& s) { s.textures[0].nearest = true; });
     change([](Scene& s) { s.textures[0].image.pixels[0] = 9; });
     change([](Scene& s) { s.textures[0].image.width = 2; });
     base.materials[0].name = "mud"; // shows nowhere

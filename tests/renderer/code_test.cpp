@@ -49,7 +49,7 @@ TEST(Code, HashesLeaveNothingOut) {
         EXPECT_TRUE(std::any_of(files.begin(), files.end(), [&](const std::string& each) {
             return fs::path(each).filename() == name;
         })) << name;
-    const std::regex include("#include \"([^\"]+)\"");
+    const std::regex include("(?:^|\n)#include \"([^\"]+)\"");
     for (const std::string& file : files) {
         const std::string text = readFile(fs::path(OBSCURA_SOURCE) / file);
         for (auto at = std::sregex_iterator(text.begin(), text.end(), include);

@@ -273,15 +273,14 @@ TEST(Reference, BentNormalLeansAwayFromAWall) {
 }
 
 // A sheet of two texels' width, one opaque, one clear, repeated along x; above the floor at 1.
-Build striped(double x0, double x1, float u1, bool repeat, float factor) {
+Build striped(double x0, double x1, float u1, Wrap wrap, float factor) {
     Build build;
     build.strip(x0, 1, x1, 1, far);
     Scene& scene = build.scene();
     for (int corner = 0; corner < 4; ++corner)
         scene.vertices[static_cast<std::size_t>(corner)].uv.x =
             corner == 1 || corner == 2 ? u1 : 0.0f;
-    scene.textures.push_back(
-        {{2, 1, 4, {255, 255, 255, 255, 255, 255, 255, 0}}, true, repeat, repeat});
+    scene.textures.push_back({{2, 1, 4, {255, 255, 255, 255, 255, 255, 255, 0}}, true, wrap, wrap});
     scene.materials[0].baseColourTexture = 0;
     scene.materials[0].baseColour.a = factor;
     scene.materials[0].alphaCutoff = 0.5f;
@@ -297,12 +296,12 @@ TEST(Reference, SeesThroughHolesOfMaskedMaterials) {
     // Filtered alpha falls below the cutoff half way between the texels' centres.
     const double repeated = stripe(-2, -1.5) + stripe(-1, -0.5) + stripe(0, 0.5) + stripe(1, 1.5);
     expectTruth({
-        {"clamped", striped(-1, 1, 1, false, 1), 1e4, stripe(-1, 0)},
-        {"beyond the edge", striped(-1, 3, 2, false, 1), 1e4, stripe(-1, 0)},
-        {"repeated", striped(-2, 2, 4, true, 1), 1e4, repeated},
-        {"cutoff at 2/3", striped(-1, 1, 1, false, 0.75f), 1e4, stripe(-1, -1.0 / 6)},
-        {"falloff", striped(-1, 1, 1, false, 0.4f), 1e4, 0, Integral::falloff},
-        {"too faint", striped(-1, 1, 1, false, 0.4f), 1e4, 0},
+        {"clamped", striped(-1, 1, 1, Wrap::clamp, 1), 1e4, stripe(-1, 0)},
+        {"beyond the edge", striped(-1, 3, 2, Wrap::clamp, 1), 1e4, stripe(-1, 0)},
+        {"repeated", striped(-2, 2, 4, Wrap::repeat, 1), 1e4, repeated},
+        {"cutoff at 2/3", striped(-1, 1, 1, Wrap::clamp, 0.75f), 1e4, stripe(-1, -1.0 / 6)},
+        {"falloff", striped(-1, 1, 1, Wrap::clamp, 0.4f), 1e4, 0, Integral::falloff},
+        {"too faint", striped(-1, 1, 1, Wrap::clamp, 0.4f), 1e4, 0},
     });
 }
 

@@ -130,7 +130,7 @@ TEST_F(Generate, WritesMatchedPairs) {
     EXPECT_NE(manifest.pairs[0].a.inputsSha256, manifest.pairs[1].a.inputsSha256); // levels differ
     EXPECT_EQ(manifest.pairs[1].a.meanOcclusion, 0);
     EXPECT_GT(manifest.pairs[0].a.meanOcclusion, 0.1); // Crytek on a plane
-    EXPECT_TRUE(fs::exists(root_ / "out" / manifest.contactSheet.path));
+    EXPECT_TRUE(fs::exists(root_ / "out" / manifest.contactSheets.at(0).path));
     EXPECT_FALSE(fs::exists(root_ / "out" / "unfinished-manifest.json"));
 }
 
@@ -319,7 +319,8 @@ TEST_F(Generate, EveryImageCanBeMadeAgainFromItsRecipeAlone) {
 TEST_F(Generate, VerifyingNoticesEveryFileThatChanged) {
     run(protocolText(), "out", true);
     const Manifest manifest = readManifest(root_ / "out" / "manifest.json");
-    std::vector<std::string> files{manifest.contactSheet.path, manifest.pairs[1].b.image.path};
+    std::vector<std::string> files{manifest.contactSheets.at(0).path,
+                                   manifest.pairs[1].b.image.path};
     for (const auto& [kind, file] : manifest.pairs[0].b.layers)
         files.push_back(file.path);
     EXPECT_GE(files.size(), 7u);

@@ -2,6 +2,7 @@
 #include "protocols/files.h"
 #include "renderer/gl/context.h"
 #include "renderer/probe.h"
+#include "stimuli/match.h"
 #include "stimuli/match_files.h"
 #include "tests/foreign_files.h"
 #include "tests/renderer/small_gltf.h"
@@ -185,8 +186,9 @@ TEST_F(Match, FilesRepeatAndNothingIsHalfWritten) {
     run(text, "two");
     for (const char* name : {"matched.toml", "match.csv", "match.png"})
         EXPECT_EQ(sha256File(root_ / "one" / name), sha256File(root_ / "two" / name)) << name;
-    for (const auto& entry : fs::recursive_directory_iterator(root_))
-        EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
+    for (const char* out : {"one", "two"})
+        for (const auto& entry : fs::recursive_directory_iterator(root_ / out))
+            EXPECT_FALSE(entry.path().filename().string().starts_with('.')) << entry.path();
 }
 
 TEST_F(Match, KeepsFinishedTechniquesWhenInterrupted) {
