@@ -18,7 +18,7 @@ fault sun-swapped renderer/light.cpp \
     renderer_test 'SunTest.*'
 fault srgb-toe renderer/image.cpp \
     's|12\.92f \* linear|12.2f * linear|' \
-    renderer_test '*Image*'
+    renderer_test 'Srgb.*'
 fault flip-exponent renderer/flip.cpp \
     's|0\.7F\)|0.75F)|' \
     renderer_test 'Flip.*'

@@ -1,0 +1,24 @@
+// libFuzzer: any bytes as a glTF file. An Error is right, and so is a scene; all else is a finding.
+#include "protocols/error.h"
+#include "protocols/files.h"
+#include "renderer/scene.h"
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace obscura;
+    static const std::filesystem::path folder = std::filesystem::temp_directory_path() /
+                                                ("obscura-fuzz-gltf-" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    std::FILE* file = std::fopen((folder / "t.gltf").c_str(), "wb");
+    std::fwrite(data, 1, size, file);
+    std::fclose(file);
+    try {
+        loadScene(folder / "t.gltf");
+    } catch (const Error&) {
+    }
+    return 0;
+}
