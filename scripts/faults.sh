@@ -28,10 +28,19 @@ fault radius-lost renderer/settings.cpp \
 fault unmatched-depth renderer/render.cpp \
     's|hashTargets\(inputs, gbuffer\.target\(\), lighting\.readsNormals\(\) \? 3 : 2\)|hashTargets(inputs, gbuffer.target(), 1)|' \
     generate_gl_test 'Generate.DepthIsPartOfWhatMustMatch'
+fault code-forgotten renderer/render.cpp \
+    's|std::string\(code\)|std::string(code.substr(0, 0))|' \
+    generate_gl_test 'Generate.RendersAgainWhenTheRenderingCodeChanges'
+fault index-past-the-end renderer/gltf_check.cpp \
+    's|value\.get<double>\(\) >= static_cast<double>\(size\)|value.get<double>() > static_cast<double>(size)|' \
+    renderer_test 'Gltf.*'
 
 # Of files.
 fault file-not-flushed protocols/files.cpp \
     's|= ::fsync\(descriptor\)|= 0|' \
+    protocols_test 'Files.*'
+fault foreign-files-removed protocols/files.cpp \
+    's#writer && fs::is_regular_file\(entry\.symlink_status\(\)\) && isGone\(\*writer\)#fs::is_regular_file(entry.symlink_status()) \&\& (!writer || isGone(*writer))#' \
     protocols_test 'Files.*'
 fault row-not-flushed experiment/append_file.cpp \
     's|writeAll\(descriptor_, lines\) && ::fsync\(descriptor_\) == 0|writeAll(descriptor_, lines)|' \
@@ -53,12 +62,21 @@ fault key-before-onset experiment/trial.cpp \
 fault shown-before-events experiment/session.cpp \
     's|= observer\.show\(machine\.screen\(\)\);|& machine.shown(time);|; /^ +machine\.shown\(time\);$/d' \
     experiment_test 'OrderOfEventsTest.*'
+fault minimum-view-lost experiment/trial.cpp \
+    's|viewed\(screen_, time\) < minimumView_|viewed(screen_, time) < 0 * minimumView_|' \
+    experiment_test 'MinimumView.*'
 fault mask-rounding experiment/refresh.cpp \
     's|seconds \* hz - 0\.25|seconds * hz|' \
     experiment_test 'Refresh.*'
 fault returned-slot-lost experiment/ledger.cpp \
     's|\(record\.state == SlotState::returned\)|(record.state == SlotState::returned \&\& record.slot > 1)|' \
     experiment_test 'LedgerTest.*'
+fault design-forgotten experiment/continuity.cpp \
+    's|!record\.design\.empty\(\) && record\.design != hash|& \&\& hash.empty()|' \
+    experiment_test 'ContinuityTest.*'
+fault rehearsal-takes-a-slot experiment/session.cpp \
+    's|\(!session\.rehearsal\)|(true)|' \
+    experiment_test 'SimulationTest.*'
 fault order-reversed-late experiment/schedule.cpp \
     's|place >= conditions|place > conditions|' \
     experiment_test 'Schedule.*'
