@@ -89,7 +89,7 @@ class Reprojector {
 
 } // namespace
 
-Reprojection::Reprojection(const Surfaces& from, const Surfaces& to) : width_(from.width) {
+Reprojection::Reprojection(const Surfaces& from, const Surfaces& to) {
     const Reprojector reprojector(from, to);
     for (int y = 0; y < from.height; ++y)
         for (int x = 0; x < from.width; ++x)

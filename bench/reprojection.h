@@ -27,7 +27,6 @@ class Reprojection {
     float fetch(const Image& image, std::size_t pixel) const;
 
   private:
-    int width_;
     std::vector<glm::vec2> places_; // -1 where the point is not visible
 };
 

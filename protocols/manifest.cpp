@@ -113,6 +113,11 @@ class Node {
 
     template <typename T>
     void read(T& target) const {
+        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>)
+            if (!holdsWhole<T>())
+                throw Error({file_, 0, 0, path_},
+                            fmt::format("expected a whole number, at most {}, found {}",
+                                        std::numeric_limits<T>::max(), value_->dump()));
         try {
             value_->get_to(target);
         } catch (const json::exception& error) {
@@ -144,6 +149,14 @@ class Node {
     }
 
   private:
+    // json would cut a number to fit.
+    template <typename T>
+    bool holdsWhole() const {
+        return value_->is_number_unsigned()
+                   ? std::in_range<T>(value_->get<std::uint64_t>())
+                   : value_->is_number_integer() && std::in_range<T>(value_->get<std::int64_t>());
+    }
+
     const json* value_;
     std::string file_, path_;
 };
@@ -281,7 +294,7 @@ Manifest readManifest(const std::filesystem::path& path) {
     json value;
     try {
         value = json::parse(readFile(path));
-    } catch (const json::parse_error& error) {
+    } catch (const json::exception& error) {
         throw Error({file, 0, 0, {}}, fmt::format("expected JSON: {}", error.what()));
     }
     const Node root(value, file, "");

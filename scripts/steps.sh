@@ -3,6 +3,7 @@
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$root/build
+sanitized=$root/build-sanitize
 log=$build/$program.log
 
 # What Debian 12 needs to build, run and test everything.
@@ -13,6 +14,9 @@ packages=(
     libpango1.0-dev libcairo2-dev libgtest-dev libgmock-dev libxtst-dev libx11-dev libembree-dev libnlopt-cxx-dev
     libgl1-mesa-dri libegl1 libgl1 fonts-dejavu-core gnuplot-nox xvfb xauth
 )
+
+# What the sanitized build needs besides.
+clang_packages=(clang lld llvm libclang-rt-14-dev)
 
 say() { printf '%s\n' "$*" >&2; }
 
@@ -94,9 +98,19 @@ install_missing() {
     step "installing ${#missing[@]} packages" count_apt install_packages "${missing[@]}"
 }
 
+configure() {
+    step "configuring" count_nothing cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
+}
+
 # build_targets TARGET...: configures once, then builds; nothing to do takes a second.
 build_targets() {
-    [ -f "$build/build.ninja" ] ||
-        step "configuring" count_nothing cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
+    [ -f "$build/build.ninja" ] || configure
     step "building" count_ninja ninja -C "$build" "$@"
+}
+
+# The same by clang with sanitizers, in a folder of its own.
+build_sanitized() {
+    [ -f "$sanitized/build.ninja" ] ||
+        step "configuring" count_nothing cmake -S "$root" --preset sanitize
+    step "building (sanitizers)" count_ninja ninja -C "$sanitized" "$@"
 }

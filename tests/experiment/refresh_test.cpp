@@ -25,6 +25,8 @@ TEST(Refresh, TwoSecondsInWholeRefreshes) {
     EXPECT_EQ(maskRefreshes(2, 100), 200);
     EXPECT_EQ(maskRefreshes(2, 240), 480);
     EXPECT_EQ(maskRefreshes(0.001, 60), 1);
+    EXPECT_EQ(maskRefreshes(2, 60.12), 120); // ends 0.24 of a refresh too soon
+    EXPECT_EQ(maskRefreshes(2, 60.13), 121); // would end 0.26 too soon
 }
 
 TEST(Refresh, SteadySwapsAtTheReportedRateAreBelieved) {

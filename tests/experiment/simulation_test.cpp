@@ -145,6 +145,15 @@ TEST_F(SimulationTest, TimesFollowTheExGaussian) {
     EXPECT_NEAR(mean, 0.9 + 0.5, 4.5 * error); // the protocol's defaults
 }
 
+// Every time of a row in the same unit, to the microsecond, and nothing between the phases of a
+// trial.
+TEST_F(SimulationTest, TimesAddUp) {
+    for (const Response& row : simulate(study(), folder.path() / "data", 2, 4)) {
+        EXPECT_NEAR(row.onset1Ms + row.view1Ms + row.maskMs, row.onset2Ms, 0.01);
+        EXPECT_NEAR(row.onset2Ms + row.view2Ms, row.questionOnsetMs, 0.01);
+    }
+}
+
 TEST_F(SimulationTest, SidecarSaysHowItWent) {
     const Study tiny = study();
     simulate(tiny, folder.path() / "data", 2, 9);

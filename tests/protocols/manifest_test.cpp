@@ -1,6 +1,7 @@
 #include "protocols/files.h"
 #include "protocols/manifest.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -89,6 +90,18 @@ TEST(ManifestTest, EveryPartOfARecipeChangesItsHash) {
         EXPECT_EQ(differences(base, changed).size(), 1u) << name;
     }
     EXPECT_EQ(Recipe(base).sha256(), base.sha256());
+}
+
+TEST(ManifestTest, NumbersThatDoNotFitAreRefused) {
+    writeManifest(file(), sample());
+    const std::string well = readFile(file());
+    for (const char* number : {"1e300", "1.5", "4294967296", "-2147483649", "true", "9e601"}) {
+        std::string text = well;
+        const std::string_view width = "\"width\": 64";
+        text.replace(text.rfind(width), width.size(), fmt::format("\"width\": {}", number));
+        writeFile(file(), text);
+        EXPECT_THROW(readManifest(file()), Error) << number;
+    }
 }
 
 TEST(ManifestTest, AMissingFieldIsNamed) {

@@ -86,7 +86,7 @@ TEST_P(ComputedBlur, IsThePlainWeightedMean) {
     settings.set("blurRadius", reach);
     const OcclusionPasses passes(settings, width, height);
     passes.visibility({gbuffer});
-    const auto red = [&](const gl::Texture& texture) {
+    const auto red = [&, width = width, height = height](const gl::Texture& texture) {
         return gl::readFloats(texture, width, height, gl::Format::r32f);
     };
     const auto resultOf = [&](const char* pass) { return red(passes.result(pass).texture()); };

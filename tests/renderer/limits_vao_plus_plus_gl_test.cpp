@@ -126,6 +126,26 @@ TEST_F(VaoPlusPlusLimits, TheRangeCheckLightensTheFootOfAHighStepOnly) {
     }
 }
 
+// Equation 4 itself: where the step hides every line, what is left of occlusion is the mean of the
+// lines' shares, so a wrong slope shows in full.
+TEST_F(VaoPlusPlusLimits, HiddenLinesFadeByEquation4) {
+    constexpr float distance = 0.1f;
+    for (const float step : {1.3f, 2.0f, 4.0f}) {
+        const double all = 1 - centre(curb(distance, step), unfilteredPlain(256));
+        ASSERT_GT(all, 0.2);
+        for (const double thickness : {0.2, 0.6}) {
+            Settings settings = unfilteredPlain(256);
+            settings.set("rangeCheck", 1);
+            settings.set("thickness", thickness);
+            const double expected = limit(distance, step, thickness) / limit(distance, step, 1e9);
+            const double found = (1 - centre(curb(distance, step), settings)) / all;
+            EXPECT_NEAR(found, expected, 0.02 * expected) << step << " " << thickness;
+            RecordProperty(std::to_string(step) + "/" + std::to_string(thickness),
+                           std::to_string(found) + " of " + std::to_string(expected));
+        }
+    }
+}
+
 // A room's corner with a red wall, small and far in part: something for every switch to do.
 class VaoPlusPlusSwitches : public GlTest {
   protected:

@@ -1,0 +1,105 @@
+# Faults for scripts/mutate, one at a time: its name, the file, what is done to it (sed -E), and the test that
+# must fail then: program and filter. A fault that no longer fits the code is an error, so that this list
+# cannot rot. Add one for each fault that was found in use and that no test had seen. (In ERE, | as the delimiter
+# cannot be matched: take #.)
+
+# Of pictures.
+fault vao-slope renderer/shaders/ao/vao_plus_plus.glsl \
+    's|\(line\.x - scene\) / settings\.radius|1.1 * &|' \
+    limits_gl_test 'VaoPlusPlusLimits.HiddenLinesFadeByEquation4' # equation 4
+fault horizon-falls renderer/shaders/horizon.glsl \
+    's|\(1\.0 - settings\.attenuation \* squared\) \* \(rise - horizon\)|(1.0 - settings.attenuation * squared) * rise|' \
+    limits_gl_test '*HorizonLimits.*'
+fault bias-sign renderer/shaders/horizon.glsl \
+    's|sine \* biasCosSin\.x \+ sqrt|sine * biasCosSin.x - sqrt|' \
+    limits_gl_test '*HorizonLimits.*'
+fault sun-swapped renderer/light.cpp \
+    's|std::cos\(elevation\) \* std::sin\(azimuth\)|std::cos(elevation) * std::cos(azimuth)|' \
+    renderer_test 'SunTest.*'
+fault srgb-toe renderer/image.cpp \
+    's|12\.92f \* linear|12.2f * linear|' \
+    renderer_test 'Srgb.*'
+fault flip-exponent renderer/flip.cpp \
+    's|0\.7F\)|0.75F)|' \
+    renderer_test 'Flip.*'
+fault radius-lost renderer/settings.cpp \
+    's|settings\.set\("radius", radius, setting\.place\)|settings.set("radius", 100 * radius, setting.place)|' \
+    renderer_test 'SettingsTest.*'
+fault unmatched-depth renderer/render.cpp \
+    's|hashTargets\(inputs, gbuffer\.target\(\), lighting\.readsNormals\(\) \? 3 : 2\)|hashTargets(inputs, gbuffer.target(), 1)|' \
+    generate_gl_test 'Generate.DepthIsPartOfWhatMustMatch'
+fault code-forgotten renderer/render.cpp \
+    's|std::string\(code\)|std::string(code.substr(0, 0))|' \
+    generate_gl_test 'Generate.RendersAgainWhenTheRenderingCodeChanges'
+fault index-past-the-end renderer/gltf_check.cpp \
+    's|value\.get<double>\(\) >= static_cast<double>\(size\)|value.get<double>() > static_cast<double>(size)|' \
+    renderer_test 'Gltf.*'
+
+# Of files.
+fault file-not-flushed protocols/files.cpp \
+    's|= ::fsync\(descriptor\)|= 0|' \
+    protocols_test 'Files.*'
+fault foreign-files-removed protocols/files.cpp \
+    's#writer && fs::is_regular_file\(entry\.symlink_status\(\)\) && isGone\(\*writer\)#fs::is_regular_file(entry.symlink_status()) \&\& (!writer || isGone(*writer))#' \
+    protocols_test 'Files.*'
+fault row-not-flushed experiment/append_file.cpp \
+    's|writeAll\(descriptor_, lines\) && ::fsync\(descriptor_\) == 0|writeAll(descriptor_, lines)|' \
+    experiment_test 'AppendFileTest.*'
+fault short-rows protocols/csv.cpp \
+    's|record\.cells\.size\(\) != columns|record.cells.size() > columns|' \
+    protocols_test 'Responses.*:Csv.*'
+fault torn-rows protocols/csv.cpp \
+    's#record\.ended = take\("\\n"\) .*#record.ended = take("\\n") || take("\\r\\n") || atEnd();#' \
+    protocols_test 'Responses.*:Csv.*'
+
+# Of sessions.
+fault missed-threshold experiment/trial.cpp \
+    's|missedInterval = 1\.2|missedInterval = 1.5|' \
+    experiment_test 'Trial.*'
+fault key-before-onset experiment/trial.cpp \
+    's/pending_ \|\| event\.time < since_/pending_/' \
+    experiment_test 'Trial.*'
+fault shown-before-events experiment/session.cpp \
+    's|= observer\.show\(machine\.screen\(\)\);|& machine.shown(time);|; /^ +machine\.shown\(time\);$/d' \
+    experiment_test 'OrderOfEventsTest.*'
+fault minimum-view-lost experiment/trial.cpp \
+    's|viewed\(screen_, time\) < minimumView_|viewed(screen_, time) < 0 * minimumView_|' \
+    experiment_test 'MinimumView.*'
+fault mask-rounding experiment/refresh.cpp \
+    's|seconds \* hz - 0\.25|seconds * hz|' \
+    experiment_test 'Refresh.*'
+fault returned-slot-lost experiment/ledger.cpp \
+    's|\(record\.state == SlotState::returned\)|(record.state == SlotState::returned \&\& record.slot > 1)|' \
+    experiment_test 'LedgerTest.*'
+fault design-forgotten experiment/continuity.cpp \
+    's|!record\.design\.empty\(\) && record\.design != hash|& \&\& hash.empty()|' \
+    experiment_test 'ContinuityTest.*'
+fault rehearsal-takes-a-slot experiment/session.cpp \
+    's|\(!session\.rehearsal\)|(true)|' \
+    experiment_test 'SimulationTest.*'
+fault order-reversed-late experiment/schedule.cpp \
+    's|place >= conditions|place > conditions|' \
+    experiment_test 'Schedule.*'
+fault unit-lost experiment/row.cpp \
+    's|row\.view2Ms = 1000 \* |row.view2Ms = |' \
+    experiment_test 'SimulationTest.TimesAddUp'
+fault answer-swapped experiment/row.cpp \
+    's|\(trial\.chosen == 2\) == \(row\.firstIs == "a"\)|(trial.chosen == 2)|' \
+    experiment_test 'SimulationTest.*'
+fault shuffle-short protocols/random.h \
+    's|below\(static_cast<std::uint32_t>\(i\)\)|below(static_cast<std::uint32_t>(i - 1))|' \
+    protocols_test 'Random.*'
+
+# Of statistics and choices.
+fault votes-swapped analysis/votes.cpp \
+    's|choseB \? votes\.b : votes\.a|choseB ? votes.a : votes.b|' \
+    analysis_test 'TallyVotes.*'
+fault one-sided analysis/frequencies.cpp \
+    's|2 \* boost::math::cdf\(guessing|boost::math::cdf(guessing|' \
+    analysis_test 'Frequencies/Thesis.*'
+fault other-images analysis/votes.cpp \
+    's|\(aFirst \? pair->a : pair->b\)|(aFirst ? pair->b : pair->a)|' \
+    analysis_test 'TallyWithStimuli.*'
+fault front-of-equals bench/pareto.cpp \
+    's|one\.milliseconds <= other\.milliseconds|one.milliseconds < other.milliseconds|' \
+    sweep_test 'ParetoFront.*:DominatedBy.*'

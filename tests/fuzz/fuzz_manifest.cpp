@@ -1,0 +1,16 @@
+// The stimuli's manifest.
+#include "protocols/manifest.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace obscura;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const FuzzFile file({reinterpret_cast<const char*>(data), size});
+    readsOrRefuses([&] {
+        for (const PairRecord& pair : readManifest(file.path()).pairs) {
+            pair.a.recipe.json();
+            pair.b.recipe.json();
+        }
+    });
+    return 0;
+}

@@ -1,0 +1,13 @@
+// A study's protocol, and the other files that are written by hand in TOML.
+#include "protocols/match.h"
+#include "protocols/protocol.h"
+#include "protocols/sweep.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace obscura;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string text(reinterpret_cast<const char*>(data), size);
+    readsOrRefuses([&] { parseProtocol(text, "fuzz.toml"); });
+    return 0;
+}
