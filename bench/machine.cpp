@@ -2,7 +2,8 @@
 
 #include "protocols/files.h"
 #include "protocols/version.h"
-#include "renderer/code.h"
+#include "renderer/reference_cache.h"
+#include "renderer/render.h"
 #include "stimuli/match.h"
 
 #include <fmt/chrono.h>

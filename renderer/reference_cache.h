@@ -1,12 +1,15 @@
 #pragma once
 
-#include "renderer/code.h"
 #include "renderer/reference.h"
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace obscura {
+
+// Hash of our own C++ that decides a reference (code_hash.cmake). Techniques are no part of it.
+std::string_view referenceCode();
 
 // References on disk, for they take seconds to minutes and do not change.
 

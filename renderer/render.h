@@ -1,7 +1,6 @@
 #pragma once
 
 #include "protocols/manifest.h"
-#include "renderer/code.h"
 #include "renderer/gl/context.h"
 #include "renderer/image.h"
 #include "renderer/scene.h"
@@ -11,8 +10,14 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace obscura {
+
+// Hash of our own C++ that decides the pixels of an image (code_hash.cmake), for what other code
+// made may look otherwise. Shaders and built-in scenes are no part of it: those have hashes of
+// their own (shaderSha256(), contentSha256()), so that a changed one is rendered anew alone.
+std::string_view imageCode();
 
 // Where the files that a study names are.
 struct Folders {

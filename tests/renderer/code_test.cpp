@@ -1,5 +1,6 @@
 #include "protocols/files.h"
-#include "renderer/code.h"
+#include "renderer/reference_cache.h"
+#include "renderer/render.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
