@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocols/responses.h"
+#include "protocols/reader/responses.h"
 
 #include <filesystem>
 #include <span>

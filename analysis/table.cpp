@@ -1,7 +1,6 @@
 #include "analysis/table.h"
 
-#include "protocols/csv.h"
-
+#include "base/csv.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 #include "analysis/votes.h"
 
-#include "protocols/csv.h"
-#include "protocols/files.h"
-
+#include "base/csv.h"
+#include "base/files.h"
 #include <fmt/format.h>
 
 #include <algorithm>

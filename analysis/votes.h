@@ -2,7 +2,7 @@
 
 #include "analysis/answers.h"
 #include "analysis/frequencies.h"
-#include "protocols/manifest.h"
+#include "protocols/reader/manifest.h"
 
 #include <filesystem>
 #include <string>

@@ -1,5 +1,6 @@
 #include "bench/commands.h"
-#include "protocols/error.h"
+
+#include "base/error.h"
 
 namespace {
 

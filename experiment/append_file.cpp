@@ -1,8 +1,7 @@
 #include "experiment/append_file.h"
 
-#include "protocols/error.h"
-#include "protocols/files.h"
-
+#include "base/error.h"
+#include "base/files.h"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>

@@ -1,10 +1,10 @@
 #include "experiment/continuity.h"
 
-#include "protocols/design.h"
-#include "protocols/error.h"
-#include "protocols/files.h"
-#include "protocols/responses.h"
+#include "protocols/reader/design.h"
+#include "protocols/reader/responses.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

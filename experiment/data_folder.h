@@ -1,7 +1,7 @@
 #pragma once
 
 #include "experiment/ledger.h"
-#include "protocols/protocol.h"
+#include "protocols/reader/protocol.h"
 
 #include <filesystem>
 #include <string>

@@ -2,9 +2,9 @@
 
 #include "experiment/append_file.h"
 #include "experiment/machine.h"
-#include "protocols/error.h"
-#include "protocols/files.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

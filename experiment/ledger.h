@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocols/process.h"
+#include "base/process.h"
 
 #include <filesystem>
 #include <optional>

@@ -4,10 +4,10 @@
 #include "experiment/presenter.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
-#include "protocols/error.h"
-#include "protocols/progress.h"
-#include "protocols/version.h"
 
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/version.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>

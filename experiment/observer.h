@@ -3,8 +3,8 @@
 #include "experiment/refresh.h"
 #include "experiment/study.h"
 #include "experiment/trial.h"
-#include "protocols/random.h"
 
+#include "base/random.h"
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>

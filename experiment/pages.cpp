@@ -1,7 +1,6 @@
 #include "experiment/pages.h"
 
-#include "protocols/error.h"
-
+#include "base/error.h"
 #include <fmt/format.h>
 
 #include <algorithm>

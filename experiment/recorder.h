@@ -2,7 +2,7 @@
 
 #include "experiment/append_file.h"
 #include "experiment/data_folder.h"
-#include "protocols/responses.h"
+#include "protocols/reader/responses.h"
 
 #include <string>
 #include <string_view>

@@ -5,7 +5,7 @@
 #include "experiment/schedule.h"
 #include "experiment/study.h"
 #include "experiment/trial.h"
-#include "protocols/responses.h"
+#include "protocols/reader/responses.h"
 
 namespace obscura {
 

@@ -1,7 +1,6 @@
 #include "experiment/schedule.h"
 
-#include "protocols/random.h"
-
+#include "base/random.h"
 #include <fmt/format.h>
 
 #include <cassert>

@@ -5,8 +5,8 @@
 #include "experiment/row.h"
 #include "experiment/sidecar.h"
 #include "experiment/signals.h"
-#include "protocols/files.h"
 
+#include "base/files.h"
 #include <nlohmann/json.hpp>
 
 #include <optional>

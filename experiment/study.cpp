@@ -1,9 +1,9 @@
 #include "experiment/study.h"
 
-#include "protocols/design.h"
-#include "protocols/error.h"
-#include "protocols/files.h"
+#include "protocols/reader/design.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,8 +1,9 @@
 #pragma once
 
-#include "protocols/manifest.h"
-#include "protocols/protocol.h"
-#include "renderer/image.h"
+#include "protocols/reader/manifest.h"
+#include "protocols/reader/protocol.h"
+
+#include "image/image.h"
 
 #include <filesystem>
 

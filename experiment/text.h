@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/image.h"
+#include "image/image.h"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "protocols/protocol.h"
-#include "renderer/gl/input.h"
+#include "protocols/reader/protocol.h"
+
+#include "gl/input.h"
 
 #include <array>
 #include <optional>

@@ -1,6 +1,6 @@
 #include "renderer/lit_view.h"
 
-#include "renderer/traced.h"
+#include "renderer/reference/traced.h"
 
 namespace obscura {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "renderer/composite.h"
+#include "renderer/frame/composite.h"
 #include "renderer/probe.h"
 
 namespace obscura {

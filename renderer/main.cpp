@@ -1,9 +1,9 @@
-#include "protocols/progress.h"
-#include "renderer/builtin.h"
-#include "renderer/document.h"
-#include "renderer/reference_cache.h"
+#include "renderer/builtin/builtin.h"
+#include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
+#include "renderer/techniques/document.h"
 
+#include "base/progress.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

@@ -1,7 +1,8 @@
 #include "renderer/probe.h"
 
-#include "renderer/gl/context.h"
-#include "renderer/proxies.h"
+#include "renderer/scene/proxies.h"
+
+#include "gl/context.h"
 
 namespace obscura {
 

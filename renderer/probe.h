@@ -1,7 +1,7 @@
 #pragma once
 
-#include "renderer/ao.h"
-#include "renderer/surfaces.h"
+#include "renderer/frame/surfaces.h"
+#include "renderer/techniques/occlusion_passes.h"
 
 #include <functional>
 #include <map>

@@ -1,10 +1,11 @@
 #pragma once
 
-#include "protocols/manifest.h"
-#include "renderer/gl/context.h"
-#include "renderer/image.h"
-#include "renderer/scene.h"
-#include "renderer/settings.h"
+#include "protocols/reader/manifest.h"
+#include "renderer/scene/scene.h"
+#include "renderer/techniques/settings.h"
+
+#include "gl/context.h"
+#include "image/image.h"
 
 #include <filesystem>
 #include <map>

@@ -13,16 +13,16 @@ fault horizon-falls renderer/shaders/horizon.glsl \
 fault bias-sign renderer/shaders/horizon.glsl \
     's|sine \* biasCosSin\.x \+ sqrt|sine * biasCosSin.x - sqrt|' \
     limits_gl_test '*HorizonLimits.*'
-fault sun-swapped renderer/light.cpp \
+fault sun-swapped renderer/frame/light.cpp \
     's|std::cos\(elevation\) \* std::sin\(azimuth\)|std::cos(elevation) * std::cos(azimuth)|' \
     renderer_test 'SunTest.*'
-fault srgb-toe renderer/image.cpp \
+fault srgb-toe image/image.cpp \
     's|12\.92f \* linear|12.2f * linear|' \
     renderer_test 'Srgb.*'
-fault flip-exponent renderer/flip.cpp \
+fault flip-exponent image/flip.cpp \
     's|0\.7F\)|0.75F)|' \
     renderer_test 'Flip.*'
-fault radius-lost renderer/settings.cpp \
+fault radius-lost renderer/techniques/settings.cpp \
     's|settings\.set\("radius", radius, setting\.place\)|settings.set("radius", 100 * radius, setting.place)|' \
     renderer_test 'SettingsTest.*'
 fault unmatched-depth renderer/render.cpp \
@@ -31,24 +31,24 @@ fault unmatched-depth renderer/render.cpp \
 fault code-forgotten renderer/render.cpp \
     's|std::string\(code\)|std::string(code.substr(0, 0))|' \
     generate_gl_test 'Generate.RendersAgainWhenTheRenderingCodeChanges'
-fault index-past-the-end renderer/gltf_check.cpp \
+fault index-past-the-end renderer/scene/gltf_check.cpp \
     's|value\.get<double>\(\) >= static_cast<double>\(size\)|value.get<double>() > static_cast<double>(size)|' \
     renderer_test 'Gltf.*'
 
 # Of files.
-fault file-not-flushed protocols/files.cpp \
+fault file-not-flushed base/files.cpp \
     's|= ::fsync\(descriptor\)|= 0|' \
     protocols_test 'Files.*'
-fault foreign-files-removed protocols/files.cpp \
+fault foreign-files-removed base/files.cpp \
     's#writer && fs::is_regular_file\(entry\.symlink_status\(\)\) && isGone\(\*writer\)#fs::is_regular_file(entry.symlink_status()) \&\& (!writer || isGone(*writer))#' \
     protocols_test 'Files.*'
 fault row-not-flushed experiment/append_file.cpp \
     's|writeAll\(descriptor_, lines\) && ::fsync\(descriptor_\) == 0|writeAll(descriptor_, lines)|' \
     experiment_test 'AppendFileTest.*'
-fault short-rows protocols/csv.cpp \
+fault short-rows base/csv.cpp \
     's|record\.cells\.size\(\) != columns|record.cells.size() > columns|' \
     protocols_test 'Responses.*:Csv.*'
-fault torn-rows protocols/csv.cpp \
+fault torn-rows base/csv.cpp \
     's#record\.ended = take\("\\n"\) .*#record.ended = take("\\n") || take("\\r\\n") || atEnd();#' \
     protocols_test 'Responses.*:Csv.*'
 
@@ -86,7 +86,7 @@ fault unit-lost experiment/row.cpp \
 fault answer-swapped experiment/row.cpp \
     's|\(trial\.chosen == 2\) == \(row\.firstIs == "a"\)|(trial.chosen == 2)|' \
     experiment_test 'SimulationTest.*'
-fault shuffle-short protocols/random.h \
+fault shuffle-short base/random.h \
     's|below\(static_cast<std::uint32_t>\(i\)\)|below(static_cast<std::uint32_t>(i - 1))|' \
     protocols_test 'Random.*'
 
@@ -100,6 +100,6 @@ fault one-sided analysis/frequencies.cpp \
 fault other-images analysis/votes.cpp \
     's|\(aFirst \? pair->a : pair->b\)|(aFirst ? pair->b : pair->a)|' \
     analysis_test 'TallyWithStimuli.*'
-fault front-of-equals bench/pareto.cpp \
+fault front-of-equals bench/sweep/pareto.cpp \
     's|one\.milliseconds <= other\.milliseconds|one.milliseconds < other.milliseconds|' \
     sweep_test 'ParetoFront.*:DominatedBy.*'

@@ -1,7 +1,6 @@
 #include "stimuli/contact_sheet.h"
 
-#include "stimuli/page.h"
-
+#include "image/page.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "protocols/manifest.h"
-#include "renderer/image.h"
+#include "protocols/reader/manifest.h"
+
+#include "image/image.h"
 
 #include <vector>
 

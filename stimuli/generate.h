@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocols/manifest.h"
+#include "protocols/reader/manifest.h"
 #include "renderer/render.h"
 
 #include <filesystem>

@@ -1,9 +1,9 @@
-#include "protocols/progress.h"
-#include "renderer/reference_cache.h"
+#include "renderer/reference/reference_cache.h"
 #include "stimuli/generate.h"
-#include "stimuli/match.h"
-#include "stimuli/match_files.h"
 
+#include "base/progress.h"
+#include "matching/match.h"
+#include "matching/match_files.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

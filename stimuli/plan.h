@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocols/protocol.h"
+#include "protocols/reader/protocol.h"
 
 #include <filesystem>
 #include <string>

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "protocols/error.h"
-
+#include "base/error.h"
 #include <gtest/gtest.h>
 
 #include <string>

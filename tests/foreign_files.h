@@ -1,7 +1,7 @@
 #pragma once
 
-#include "protocols/files.h"
-#include "protocols/process.h"
+#include "base/files.h"
+#include "base/process.h"
 
 #include <filesystem>
 #include <map>

@@ -1,5 +1,5 @@
 // Light from everywhere around the scene as nine spherical-harmonic coefficients of irradiance
-// (renderer/light.h); world directions.
+// (renderer/frame/light.h); world directions.
 layout(std140, binding = 3) uniform EnvironmentBlock { vec4 irradiance[9]; }
 environment;
 

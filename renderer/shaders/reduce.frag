@@ -1,4 +1,4 @@
-// Every nth pixel's depth and normal (renderer/reduction.h).
+// Every nth pixel's depth and normal (renderer/techniques/reduction.h).
 
 layout(binding = 0) uniform sampler2D depthBuffer;
 layout(binding = 1) uniform sampler2D normalBuffer;

@@ -1,8 +1,8 @@
 #include "experiment/append_file.h"
-#include "protocols/files.h"
 #include "tests/folder.h"
 #include "tests/lossy_disk.h"
 
+#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

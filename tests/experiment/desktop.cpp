@@ -1,7 +1,6 @@
 #include "tests/experiment/desktop.h"
 
-#include "protocols/error.h"
-
+#include "base/error.h"
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>

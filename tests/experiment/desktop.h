@@ -1,7 +1,6 @@
 #pragma once
 
-#include "renderer/image.h"
-
+#include "image/image.h"
 #include <sys/types.h>
 
 #include <memory>

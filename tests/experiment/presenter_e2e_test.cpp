@@ -2,14 +2,14 @@
 #include "experiment/ledger.h"
 #include "experiment/pages.h"
 #include "experiment/study.h"
-#include "protocols/error.h"
-#include "protocols/files.h"
-#include "protocols/responses.h"
+#include "protocols/reader/responses.h"
 #include "tests/experiment/desktop.h"
 #include "tests/experiment/program.h"
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include <X11/keysym.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

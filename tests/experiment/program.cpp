@@ -1,7 +1,6 @@
 #include "tests/experiment/program.h"
 
-#include "protocols/files.h"
-
+#include "base/files.h"
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>

@@ -1,12 +1,12 @@
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
 #include "experiment/study.h"
-#include "protocols/files.h"
-#include "protocols/responses.h"
+#include "protocols/reader/responses.h"
 #include "tests/experiment/desktop.h"
 #include "tests/experiment/program.h"
 #include "tests/experiment/tiny_study.h"
 
+#include "base/files.h"
 #include <X11/keysym.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

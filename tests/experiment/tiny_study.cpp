@@ -1,9 +1,9 @@
 #include "tests/experiment/tiny_study.h"
 
-#include "protocols/design.h"
-#include "protocols/files.h"
-#include "protocols/random.h"
+#include "protocols/reader/design.h"
 
+#include "base/files.h"
+#include "base/random.h"
 #include <fmt/format.h>
 
 #include <cstdlib>

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "protocols/error.h"
-
+#include "base/error.h"
 #include <sys/mman.h>
 #include <unistd.h>
 

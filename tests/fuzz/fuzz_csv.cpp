@@ -1,5 +1,5 @@
 // Participants' answers. Rows that are read are written and read again.
-#include "protocols/responses.h"
+#include "protocols/reader/responses.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace obscura;

@@ -1,8 +1,8 @@
 // libFuzzer: any bytes as a glTF file. An Error is right, and so is a scene; all else is a finding.
-#include "protocols/error.h"
-#include "protocols/files.h"
-#include "renderer/scene.h"
+#include "renderer/scene/scene.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include <unistd.h>
 
 #include <filesystem>

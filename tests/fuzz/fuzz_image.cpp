@@ -1,6 +1,6 @@
 // libFuzzer: any bytes as an encoded image. The first byte chooses the format by its name.
-#include "protocols/error.h"
-#include "renderer/image.h"
+#include "base/error.h"
+#include "image/image.h"
 
 #include <span>
 #include <string>

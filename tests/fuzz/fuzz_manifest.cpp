@@ -1,5 +1,5 @@
 // The stimuli's manifest.
-#include "protocols/manifest.h"
+#include "protocols/reader/manifest.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace obscura;

@@ -1,7 +1,7 @@
 // A study's protocol, and the other files that are written by hand in TOML.
-#include "protocols/match.h"
-#include "protocols/protocol.h"
-#include "protocols/sweep.h"
+#include "protocols/reader/match.h"
+#include "protocols/reader/protocol.h"
+#include "protocols/reader/sweep.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace obscura;

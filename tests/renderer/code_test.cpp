@@ -1,7 +1,7 @@
-#include "protocols/files.h"
-#include "renderer/reference_cache.h"
+#include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
 
+#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -45,8 +45,9 @@ TEST(Code, HashesAreThereAndNotTheSame) {
 // change would leave stale images.
 TEST(Code, HashesLeaveNothingOut) {
     const std::set<std::string> files = sourcesOf("imageCode");
-    for (const char* name : {"render.cpp", "ao.cpp", "gbuffer.cpp", "light.cpp", "composite.cpp",
-                             "gltf.cpp", "image.cpp", "target.cpp", "random.cpp", "techniques.cpp"})
+    for (const char* name :
+         {"render.cpp", "occlusion_passes.cpp", "gbuffer.cpp", "light.cpp", "composite.cpp",
+          "gltf.cpp", "image.cpp", "target.cpp", "random.cpp", "techniques.cpp"})
         EXPECT_TRUE(std::any_of(files.begin(), files.end(), [&](const std::string& each) {
             return fs::path(each).filename() == name;
         })) << name;

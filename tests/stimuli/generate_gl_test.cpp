@@ -1,12 +1,12 @@
-#include "protocols/files.h"
-#include "renderer/gl/context.h"
-#include "renderer/light.h"
+#include "renderer/frame/light.h"
 #include "stimuli/generate.h"
 #include "stimuli/plan.h"
 #include "tests/error_of.h"
 #include "tests/foreign_files.h"
-#include "tests/renderer/small_gltf.h"
+#include "tests/renderer/scene/small_gltf.h"
 
+#include "base/files.h"
+#include "gl/context.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

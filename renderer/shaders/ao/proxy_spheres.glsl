@@ -4,7 +4,7 @@
 // High frequency ("detail"): neighbouring pixels stand for themselves, each as a sphere whose disc
 // is its share of the search disc, so that its effect falls with the square of the distance. The
 // nearer the camera, the more of them. Low frequency ("distant"): spheres fitted to the scene's
-// meshes (renderer/proxies.h) are splatted over the pixels that they may reach.
+// meshes (renderer/scene/proxies.h) are splatted over the pixels that they may reach.
 //
 // Facts are from Jakobsen 2010, chapter 2, and other later accounts: the paper itself was not at
 // hand. The sum forgets that occluders hide each other: it double-counts, the paper's known fault,

@@ -2,7 +2,7 @@
 // (2020) gave it and Puri 2024 (Leeds), section 3.3, measured. Depth and normals.
 //
 // Departures: the kernel and the tile's vectors are well-spread instead of drawn by chance
-// (renderer/points.h, noise.glsl); the bias is in radii. The range check is kept with its fault: a
+// (renderer/techniques/points.h, noise.glsl); the bias is in radii. The range check is kept with its fault: a
 // surface R in front of the pixel still counts in full, one at 2 R by half, one at 3 R by 0.26.
 //
 // Limit: with L and w the kernel's lengths and directions, a plane is open, and beside a step of

@@ -14,7 +14,7 @@
 // Limit (nothing to converge but the model): a plane is open at any slant. Where a share q of the
 // area lies h nearer, mean -q h and variance q (1 - q) h^2 go into the form above; the area is a
 // square of texels whose second moment equals the ball's. Beside a curb that is near the ball's own
-// share (tests/renderer/limits_points_gl_test.cpp). The paper's weakness stays: beside a silhouette
+// share (tests/renderer/techniques/limits_points_gl_test.cpp). The paper's weakness stays: beside a silhouette
 // the far side widens the spread, so near things lose occlusion there and the wall behind darkens.
 
 #include "depth.glsl"

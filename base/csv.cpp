@@ -1,0 +1,133 @@
+#include "base/csv.h"
+
+#include "base/error.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace obscura {
+
+namespace {
+
+class Splitter {
+  public:
+    explicit Splitter(std::string_view text) : text_(text) {
+        if (text_.starts_with("\xEF\xBB\xBF"))
+            text_.remove_prefix(3);
+    }
+
+    bool atEnd() const { return at_ == text_.size(); }
+
+    CsvRecord record() {
+        CsvRecord record;
+        record.line = line_;
+        const std::size_t start = at_;
+        do
+            record.fault = cell(record.cells.emplace_back());
+        while (record.fault.empty() && take(","));
+        record.ended = take("\n") || take("\r\n");
+        if (record.fault.empty() && !record.ended && !atEnd())
+            record.fault = "a closing quote is followed by neither a comma nor the line's end";
+        if (!record.fault.empty())
+            record.ended = endFaulty(start);
+        line_ += static_cast<int>(std::count(text_.begin() + start, text_.begin() + at_, '\n'));
+        return record;
+    }
+
+  private:
+    bool sees(std::string_view next) const { return text_.substr(at_).starts_with(next); }
+
+    bool take(std::string_view next) {
+        if (!sees(next))
+            return false;
+        at_ += next.size();
+        return true;
+    }
+
+    // Both return a fault, or "".
+    std::string cell(std::string& value) {
+        if (take("\""))
+            return quotedCell(value);
+        for (; !atEnd() && !sees(",") && !sees("\n") && !sees("\r\n"); ++at_) {
+            if (sees("\""))
+                return "a quote stands inside a cell that does not begin with one";
+            value += text_[at_];
+        }
+        return {};
+    }
+
+    std::string quotedCell(std::string& value) {
+        for (; !atEnd(); ++at_) {
+            if (take("\"") && !sees("\""))
+                return {};
+            value += text_[at_];
+        }
+        return "a quote is opened and never closed";
+    }
+
+    // Goes on after the first line of the record; false when that line has no end.
+    bool endFaulty(std::size_t start) {
+        const std::size_t end = text_.find('\n', start);
+        at_ = end == text_.npos ? text_.size() : end + 1;
+        return end != text_.npos;
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+};
+
+template <typename T>
+bool readNumber(std::string_view cell, T& number) {
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
+    return error == std::errc{} && end == cell.data() + cell.size();
+}
+
+} // namespace
+
+std::vector<CsvRecord> splitCsv(std::string_view text) {
+    std::vector<CsvRecord> records;
+    for (Splitter splitter(text); !splitter.atEnd();)
+        records.push_back(splitter.record());
+    return records;
+}
+
+std::string faultOf(const CsvRecord& record, std::size_t columns) {
+    if (!record.ended)
+        return "the line has no end: it was cut off while being written";
+    if (!record.fault.empty())
+        return record.fault;
+    if (record.cells.size() != columns)
+        return fmt::format("expected {} columns, found {}", columns, record.cells.size());
+    return {};
+}
+
+void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
+                 const std::string& file) {
+    for (const std::string& cell : header.cells)
+        if (std::find(names.begin(), names.end(), cell) == names.end())
+            throw Error({file, 1, 0, cell},
+                        fmt::format("unknown column{}", suggestion(cell, names)));
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (i >= header.cells.size() || header.cells[i] != names[i])
+            throw Error({file, 1, static_cast<int>(i) + 1, {}},
+                        fmt::format("expected column \"{}\", found \"{}\"", names[i],
+                                    i < header.cells.size() ? header.cells[i] : "end of line"));
+    if (header.cells.size() > names.size())
+        throw Error({file, 1, 0, header.cells.back()}, "the column stands twice in the header");
+}
+
+bool readCell(std::string_view cell, int& number) { return readNumber(cell, number); }
+bool readCell(std::string_view cell, double& number) { return readNumber(cell, number); }
+
+std::string csvCell(std::string_view value) {
+    if (value.find_first_of(",\"\n\r") == value.npos)
+        return std::string(value);
+    std::string cell = "\"";
+    for (const char c : value)
+        cell.append(c == '"' ? 2 : 1, c);
+    return cell + "\"";
+}
+
+} // namespace obscura

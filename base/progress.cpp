@@ -1,0 +1,62 @@
+#include "base/progress.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+namespace obscura {
+
+namespace {
+
+std::string spell(double seconds) {
+    const int whole = static_cast<int>(seconds + 0.5);
+    return whole < 100 ? fmt::format("{} s", whole)
+                       : fmt::format("{} min {:02} s", whole / 60, whole % 60);
+}
+
+} // namespace
+
+Progress::Progress(std::string label, double total)
+    : label_(std::move(label)), total_(std::max(total, 1e-9)), terminal_(::isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() { print(done_, {}, true); }
+
+void Progress::update(double done, const std::string& note) {
+    done_ = std::min(done, total_);
+    const auto interval = terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(5);
+    if (done_ < total_ && Clock::now() - printed_ >= interval)
+        print(done_, note, false);
+}
+
+void Progress::print(double done, const std::string& note, bool last) {
+    printed_ = Clock::now();
+    const double elapsed = std::chrono::duration<double>(printed_ - start_).count();
+    const double share = done / total_;
+    std::string time = fmt::format("{} so far", spell(elapsed));
+    if (last)
+        time = fmt::format("in {}", spell(elapsed));
+    else if (share >= 0.01) // earlier, rates are of starting up
+        time = fmt::format("{} left", spell(elapsed * (1 - share) / share));
+
+    constexpr int width = 24;
+    const int filled = static_cast<int>(share * width);
+    const std::string bar = std::string(static_cast<std::size_t>(filled), '#') +
+                            std::string(static_cast<std::size_t>(width - filled), '.');
+    fmt::print(stderr, "{}{:<22} [{}] {:3.0f} %  {}  {}{}", terminal_ ? "\r\x1b[K" : "", label_,
+               bar, share * 100, time, note, terminal_ && !last ? "" : "\n");
+    std::fflush(stderr);
+}
+
+double peakMemory() {
+    std::ifstream status("/proc/self/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("VmHWM:"))
+            return std::strtod(line.c_str() + 6, nullptr) / 1024;
+    return 0;
+}
+
+} // namespace obscura

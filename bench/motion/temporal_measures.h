@@ -1,0 +1,93 @@
+#pragma once
+
+#include "bench/motion/reprojection.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace obscura {
+
+// How steady visibility is from frame to frame, fed frame by frame (fact sheet, section C). Numbers
+// are in units of visibility.
+
+// Values in [0, 2], rounded to 1/32768.
+class Magnitudes {
+  public:
+    void add(double value);
+    std::uint64_t count() const { return count_; }
+    // NaN without any value.
+    double mean() const;
+    // The smallest value that at least such a share of all do not exceed.
+    double percentile(double share) const;
+
+  private:
+    std::vector<std::uint32_t> counts_ = std::vector<std::uint32_t>(2 * 32768 + 1);
+    std::uint64_t count_ = 0;
+    double sum_ = 0;
+};
+
+// Measure 1: the camera keeps still while the noise cycles.
+class StillNoise {
+  public:
+    void add(const Image& visibility);
+    // Of each pixel over the frames added, two or more: the root of the unbiased estimate of
+    // variance.
+    Image deviation() const;
+
+  private:
+    Image mean_;
+    std::vector<double> squares_; // of differences to the mean, summed (Welford 1962)
+    int frames_ = 0;
+};
+
+// What happened between two frames of a moving camera, whatever the technique.
+struct FrameStep {
+    std::vector<bool> shown; // whether the pixel shows a surface in either frame
+    Reprojection back;       // this frame's points in the frame before
+    Reprojection ahead;      // the frame before's points in this frame
+    Image change;            // of the truth at each pixel: G_t - G_t-1
+    Image warpedChange;      // of the truth at each point of a surface: G_t - G_t-1 o w
+};
+
+// A_t - A_t-1 o w, where "o w" fetches bilinearly from where the pixel's point was in the frame
+// before; 0 where it was not visible there.
+Image warpedChange(const Image& now, const Image& before, const Reprojection& back);
+
+// Measures 2 to 4: the camera moves while the noise keeps to its pixels.
+class MotionError {
+  public:
+    void start(const Image& visibility);
+    // `before` is the step before this one, null at the first.
+    void step(const Image& visibility, const FrameStep& step, const FrameStep* before);
+
+    // |(A_t - A_t-1 o w) - (G_t - G_t-1 o w)| of all points that both frames show: reference-
+    // relative change, motion-compensated.
+    const Magnitudes& unreal() const { return unreal_; }
+    // |(A_t - A_t-1) - (G_t - G_t-1)| of all pixels that show a surface: the same, plain.
+    const Magnitudes& unrealAtPixels() const { return unrealAtPixels_; }
+    // |A_t-2 o w - 2 A_t-1 + A_t o w'| of all points that three frames show.
+    const Magnitudes& second() const { return second_; }
+    // E_w: the mean of (A_t - A_t-1 o w)^2. NaN where no two frames show the same point.
+    double warpingError() const;
+
+    // Each pixel's mean of unreal() over the steps.
+    Image unrealPicture() const;
+    // The frame with the most unreal change, 1 being that of the first step, and its visibility.
+    int worstFrame() const { return worstFrame_; }
+    const Image& worst() const { return worst_; }
+
+  private:
+    void addUnreal(const Image& visibility, const FrameStep& step);
+    void addUnrealAtPixels(const Image& visibility, const FrameStep& step);
+    void addSecond(const Image& visibility, const FrameStep& step, const FrameStep& before);
+
+    Image before_, beforeThat_;
+    Magnitudes unreal_, unrealAtPixels_, second_;
+    double warpedSquares_ = 0;
+    Image unrealSums_;
+    int steps_ = 0, worstFrame_ = 0;
+    double worstSum_ = -1;
+    Image worst_;
+};
+
+} // namespace obscura

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "bench/motion/temporal.h"
+#include "bench/stability/cell.h"
+#include "protocols/reader/match.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// `obscura-bench stability`: techniques through every failure test. The folder gets stability.csv
+// (stability_csv.h), stability.json, pictures/TEST-CONFIGURATION.png and stability.html
+// (stability_page.h).
+
+// Camera paths through a scene, for steadiness from frame to frame.
+struct Motion {
+    Scene scene;
+    Camera start;
+    double radius = 0.5; // metres; of truth and techniques
+    TemporalEffort effort;
+};
+
+struct StabilityOptions {
+    std::vector<std::string> configurations; // tested_technique.h
+    std::filesystem::path folder;
+    ImageSize size{320, 180};       // of the tests' images; some derive theirs from it
+    std::vector<std::string> tests; // of still pictures, by id; those in motion have their own list
+    std::optional<Motion> motion = {};
+    std::string about =
+        "{}\n";        // stability.json: what else decides the numbers, such as the program
+    bool anew = false; // whatever the folder's CSV holds is measured again, or left out
+};
+
+// All tests of still pictures, in the order of the page's columns; those in motion (temporal.h)
+// follow them.
+std::vector<StabilityTest> stabilityTests();
+std::vector<std::string> stillTestIds();
+// The defaults of every technique of the table that sees only the screen.
+std::vector<std::string> screenTechniques();
+
+// The share done, 0 ... 1, and what is at hand.
+using StabilityProgress = std::function<void(double, const std::string&)>;
+
+// Runs the tests. What stands in the folder's CSV of other tests and configurations stays, if it
+// was measured with the same `about`; with another it is an Error, unless all begins anew. The CSV
+// is written again after each technique, so that finished ones are kept, and the page at the end. A
+// context must be current; an unknown test is an Error. Returns all that stands in the CSV.
+std::vector<StabilityCell> runStability(const StabilityOptions& options,
+                                        const StabilityProgress& progress);
+
+// Makes the page anew from the folder's CSV and pictures.
+void writeStabilityPage(const std::filesystem::path& folder);
+
+} // namespace obscura

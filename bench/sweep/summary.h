@@ -1,0 +1,69 @@
+#pragma once
+
+#include "bench/sweep/pareto.h"
+#include "bench/sweep/row.h"
+#include "report/scatter.h"
+
+#include <map>
+#include <span>
+
+namespace obscura {
+
+// What charts and tables show of a sweep.
+
+// One configuration at one scene, resolution and radius, all views taken together: of times,
+// fetches, bytes and ratios the median over views (so the percentiles are those of the frames of a
+// typical view); of RMSE the root of the mean square, of bias the mean size with the sign of the
+// mean (views must not cancel out), of other errors the mean; NaN as soon as one view has none;
+// frames are summed, `view` lists the names, text and thumbnail are the first view's.
+SweepRow overViews(std::span<const SweepRow> rows);
+
+// The rows with their milliseconds as at the view's typical speed. Groups of configurations run one
+// after the other, while machines heat up and others use them: each row's are scaled so that
+// `starcraft` with 16 samples takes in its rounds what it takes in the view's median row. Ratios
+// stay as they are; so does what has none.
+std::vector<SweepRow> atTypicalSpeed(std::vector<SweepRow> rows);
+
+// The configurations of one scene, resolution and radius, by rising milliseconds at typical speed.
+struct SweepGroup {
+    std::string scene;
+    int width = 0, height = 0;
+    double radius = 0; // metres
+    std::vector<SweepRow> points;
+};
+// "atrium, 960×540, R 0.5 m"
+std::string titleOf(const SweepGroup& group);
+// In the order in which scenes first appear; of a scene, the smallest picture first.
+std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows);
+
+// Points of the group that lack views which others have: their medians are of other pictures.
+std::vector<std::string> lackingViews(const SweepGroup& group);
+
+// An error that charts can show; less is better.
+struct ErrorMeasure {
+    std::string name;      // "RMSE, matched"
+    std::string reference; // "full" or "depth buffer"
+    double (*of)(const SweepRow&);
+    bool always = false; // tables show it beside any other
+};
+std::span<const ErrorMeasure> errorMeasures(); // the first is the default
+
+std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasure& measure);
+
+// The group as a chart shows it; `techniques` are the series.
+Scatter scatterOf(const SweepGroup& group, const ErrorMeasure& measure,
+                  const std::vector<std::string>& techniques);
+
+// Ids in alphabetical order: what colours and marks are given out by.
+std::vector<std::string> techniquesOf(const std::vector<SweepRow>& rows);
+
+std::size_t indexOf(const std::vector<std::string>& techniques, const std::string& technique);
+
+// Where the technique of each configuration, also of those that only grew, and of each name stands
+// among techniquesOf(); their number for one that is not there.
+std::map<std::string, std::size_t> techniquesByConfiguration(const Sweep& sweep);
+
+// "samples=8 blur=1" as names and values.
+std::map<std::string, std::string> settingsIn(const std::string& settings);
+
+} // namespace obscura

@@ -1,0 +1,239 @@
+#include "gl/window.h"
+
+#include <epoxy/gl.h>
+
+#include "base/error.h"
+#include <GLFW/glfw3.h>
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace obscura::gl {
+
+static_assert(static_cast<int>(Key::space) == GLFW_KEY_SPACE);
+static_assert(static_cast<int>(Key::one) == GLFW_KEY_1);
+static_assert(static_cast<int>(Key::two) == GLFW_KEY_2);
+static_assert(static_cast<int>(Key::escape) == GLFW_KEY_ESCAPE);
+static_assert(static_cast<int>(Key::enter) == GLFW_KEY_ENTER);
+static_assert(static_cast<int>(Key::backspace) == GLFW_KEY_BACKSPACE);
+static_assert(static_cast<int>(Key::right) == GLFW_KEY_RIGHT);
+static_assert(static_cast<int>(Key::left) == GLFW_KEY_LEFT);
+static_assert(static_cast<int>(Key::keypadOne) == GLFW_KEY_KP_1);
+static_assert(static_cast<int>(Key::keypadTwo) == GLFW_KEY_KP_2);
+
+namespace {
+
+std::string reason() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text ? text : "no reason given";
+}
+
+Monitor describe(GLFWmonitor* handle) {
+    Monitor monitor;
+    const GLFWvidmode* mode = glfwGetVideoMode(handle);
+    monitor.name = glfwGetMonitorName(handle);
+    monitor.width = mode->width;
+    monitor.height = mode->height;
+    monitor.refreshHz = mode->refreshRate;
+    glfwGetMonitorPhysicalSize(handle, &monitor.widthMm, &monitor.heightMm);
+    glfwGetMonitorPos(handle, &monitor.x, &monitor.y);
+    return monitor;
+}
+
+GLFWmonitor* chosenMonitor(int number) {
+    int count = 0;
+    GLFWmonitor** handles = glfwGetMonitors(&count);
+    if (number < 1 || number > count)
+        throw Error(fmt::format("there is no monitor {}: {} connected; --list-monitors names them",
+                                number, count == 1 ? "one is" : fmt::format("{} are", count)));
+    return handles[number - 1];
+}
+
+void hintContext() {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+}
+
+// A full-screen window keeps the screen when the focus goes elsewhere: a second monitor may be in
+// use by the experimenter. The mode is never changed.
+void hintWindow(const GLFWvidmode& mode) {
+    glfwWindowHint(GLFW_RESIZABLE, GLFW_FALSE);
+    glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);
+    glfwWindowHint(GLFW_RED_BITS, mode.redBits);
+    glfwWindowHint(GLFW_GREEN_BITS, mode.greenBits);
+    glfwWindowHint(GLFW_BLUE_BITS, mode.blueBits);
+    glfwWindowHint(GLFW_REFRESH_RATE, mode.refreshRate);
+}
+
+} // namespace
+
+Window::Library::Library() {
+    if (!glfwInit())
+        throw Error(fmt::format("no screen to open a window on ({}); is DISPLAY or "
+                                "WAYLAND_DISPLAY set?",
+                                reason()));
+}
+Window::Library::~Library() { glfwTerminate(); }
+
+void Window::Destroy::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
+
+std::vector<Monitor> monitors() {
+    const Window::Library library;
+    int count = 0;
+    GLFWmonitor** handles = glfwGetMonitors(&count);
+    std::vector<Monitor> result;
+    for (int i = 0; i < count; ++i)
+        result.push_back(describe(handles[i]));
+    return result;
+}
+
+Window::Window(const WindowOptions& options) : interrupt_(options.interrupt) {
+    open(options);
+    listen();
+    glfwMakeContextCurrent(window_.get());
+    collectMessages();
+    glfwSwapInterval(1);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_DITHER);
+    glfwFocusWindow(window_.get());
+    poll(); // the system may still resize it
+    glfwGetFramebufferSize(window_.get(), &width_, &height_);
+    glViewport(0, 0, width_, height_);
+}
+
+Window::~Window() = default;
+
+void Window::open(const WindowOptions& options) {
+    GLFWmonitor* handle = chosenMonitor(options.monitor);
+    monitor_ = describe(handle);
+    hintContext();
+    hintWindow(*glfwGetVideoMode(handle));
+    const WindowOptions::Size size =
+        options.windowed.value_or(WindowOptions::Size{monitor_.width, monitor_.height});
+    window_.reset(glfwCreateWindow(size.width, size.height, options.title.c_str(),
+                                   options.windowed ? nullptr : handle, nullptr));
+    if (!window_)
+        throw Error(fmt::format("expected a window with OpenGL 4.5 on monitor {} ({}): {}",
+                                options.monitor, monitor_.name, reason()));
+    if (options.windowed)
+        glfwSetWindowPos(window_.get(), monitor_.x + (monitor_.width - size.width) / 2,
+                         monitor_.y + (monitor_.height - size.height) / 2);
+}
+
+// GLFW's callbacks are C: they only note what happened.
+void Window::listen() {
+    static const auto self = [](GLFWwindow* window) -> Window& {
+        return *static_cast<Window*>(glfwGetWindowUserPointer(window));
+    };
+    glfwSetWindowUserPointer(window_.get(), this);
+    glfwSetKeyCallback(window_.get(), [](GLFWwindow* window, int key, int, int action, int) {
+        if (action == GLFW_REPEAT)
+            return;
+        Input input =
+            self(window).stamped(action == GLFW_PRESS ? Input::Kind::press : Input::Kind::release);
+        input.key = static_cast<Key>(key);
+        self(window).inputs_.push_back(input);
+    });
+    glfwSetCharCallback(window_.get(), [](GLFWwindow* window, unsigned symbol) {
+        Input input = self(window).stamped(Input::Kind::text);
+        input.symbol = symbol;
+        self(window).inputs_.push_back(input);
+    });
+    glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* window, int button, int action, int) {
+        if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS)
+            return;
+        double x = 0, y = 0;
+        glfwGetCursorPos(window, &x, &y);
+        int width = 1, height = 1;
+        glfwGetWindowSize(window, &width, &height);
+        Input input = self(window).stamped(Input::Kind::click);
+        input.x = static_cast<int>(x * self(window).width_ / width);
+        input.y = static_cast<int>(y * self(window).height_ / height);
+        self(window).inputs_.push_back(input);
+    });
+    glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* window, int focused) {
+        self(window).inputs_.push_back(
+            self(window).stamped(focused ? Input::Kind::focusGained : Input::Kind::focusLost));
+    });
+    glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* window) {
+        self(window).inputs_.push_back(self(window).stamped(Input::Kind::exposed));
+    });
+    glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* window) {
+        glfwSetWindowShouldClose(window, GLFW_FALSE);
+        self(window).inputs_.push_back(self(window).stamped(Input::Kind::close));
+    });
+}
+
+Input Window::stamped(Input::Kind kind) const {
+    Input input;
+    input.kind = kind;
+    input.time = now();
+    return input;
+}
+
+double Window::contentScale() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_.get(), &x, &y);
+    return static_cast<double>(x);
+}
+
+double Window::now() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Window::clear(int grey) {
+    const float value = static_cast<float>(grey) / 255.0f;
+    glClearColor(value, value, value, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+void Window::draw(const Picture& picture) {
+    picture.draw((width_ - picture.width()) / 2, (height_ - picture.height()) / 2, height_);
+}
+
+void Window::finish() { glFinish(); }
+
+// Some drivers return from the swap at once and wait in the next drawing call instead
+// (glfw/glfw#1672): touching one pixel of the new back buffer brings the wait here. It is
+// overdrawn by the next clear().
+void Window::swap() {
+    glfwSwapBuffers(window_.get());
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, 1, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+    glDisable(GL_SCISSOR_TEST);
+    glFinish();
+    interrupt_();
+}
+
+std::vector<Input> Window::poll() {
+    glfwPollEvents();
+    interrupt_();
+    return std::exchange(inputs_, {});
+}
+
+std::vector<Input> Window::wait() {
+    constexpr double interval = 0.1; // seconds between calls of interrupt_
+    for (interrupt_(); inputs_.empty(); interrupt_())
+        glfwWaitEventsTimeout(interval);
+    return std::exchange(inputs_, {});
+}
+
+void Window::showCursor(bool visible) {
+    glfwSetInputMode(window_.get(), GLFW_CURSOR, visible ? GLFW_CURSOR_NORMAL : GLFW_CURSOR_HIDDEN);
+}
+
+bool Window::focused() const {
+    return glfwGetWindowAttrib(window_.get(), GLFW_FOCUSED) == GLFW_TRUE;
+}
+
+void Window::setTitle(const std::string& title) {
+    glfwSetWindowTitle(window_.get(), title.c_str());
+}
+
+} // namespace obscura::gl

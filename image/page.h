@@ -1,0 +1,60 @@
+#pragma once
+
+#include "image/image.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// A white page of pictures and words (Cairo and Pango). A Cairo surface of more than 32,767 pixels
+// across or down has no data, and says so only when asked: such a page, and any other that Cairo
+// cannot make, is an Error.
+class Page {
+  public:
+    Page(int width, int height);
+    ~Page();
+
+    // Pango markup; the size is in pixels.
+    void text(int x, int y, const std::string& markup, int size);
+    void image(int x, int y, const Image8& image); // 3 channels
+    // White visibility on white paper needs an edge.
+    void frame(int x, int y, int width, int height);
+
+    Image8 finish() const;
+
+  private:
+    struct Canvas;
+    std::unique_ptr<Canvas> canvas_;
+};
+
+// A long table is cut into pages of whole rows, as even as can be and at most 16,000 pixels high
+// (more where a single row is), which viewers and browsers still open.
+struct PageRows {
+    std::size_t first = 0, last = 0; // rows first ... last - 1
+};
+std::vector<PageRows> pagesOf(std::size_t rows, int rowHeight, int headerHeight);
+
+// "sheet.png" of an only page, else "sheet-1.png" and so on; `page` counts from 0.
+std::string pageName(const std::string& stem, std::size_t page, std::size_t pages);
+
+// The title itself, or with the page's number behind it.
+std::string pageTitle(const std::string& title, std::size_t page, std::size_t pages);
+
+// Visibility as code values, 3 channels.
+Image8 grey(const Image& visibility);
+// White where two images of visibility agree, red where the first is darker, blue where it is
+// lighter; full colour from a difference of `full`.
+Image8 signedError(const Image& image, const Image& reference, float full);
+
+// Box-filtered on code values: a thumbnail to recognise, not to measure.
+Image8 shrunk(const Image8& from, int width, int height);
+
+Image8 sideBySide(const Image8& left, const Image8& right); // of one height, with a gap
+
+// Text that stands for itself in markup.
+std::string escaped(const std::string& text);
+
+} // namespace obscura

@@ -1,0 +1,69 @@
+#pragma once
+
+#include "image/image.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace obscura {
+
+// The arithmetic of matching: pure, no OpenGL. docs/techniques.md says what it means and hides.
+
+struct Range {
+    double low = 0, high = 0;
+};
+
+// What ends every technique (technique.h): visibility v becomes max(0, 1 - intensity (1 -
+// v))^power, at most 1.
+struct Remap {
+    double intensity = 1, power = 1;
+};
+double remapped(double visibility, const Remap& remap);
+
+// A technique's raw visibility beside a target, over the pixels of several views that weigh alike,
+// as one histogram: so that trying a remap costs a few thousand powers, not a rendering.
+class Comparison {
+  public:
+    // `image` was rendered with intensity `probe` and power 1. A probe below 1 keeps apart what the
+    // last pass would have clamped at black, down to a visibility of 1 - 1 / probe.
+    void add(const Image& image, double probe, const Image& target, const std::vector<bool>& shown);
+
+    double meanSquare(const Remap& remap) const;     // of remapped minus target
+    double meanDifference(const Remap& remap) const; // remapped minus target
+    bool constant() const; // raw visibility is the same everywhere, so that no remap tells anything
+    int views() const { return views_; }
+
+  private:
+    struct Bin {
+        double weight = 0, occlusion = 0,
+               target = 0; // sums; of pixels that weigh 1 / pixels of view
+    };
+    std::vector<Bin> bins_;
+    double squares_ = 0; // of the target
+    int views_ = 0;
+};
+
+enum class Criterion {
+    leastSquares,
+    equalMean // and among remaps that give the target's mean, least squares
+};
+
+// What may change, and between which bounds; what may not stays as in `start`.
+struct Tunable {
+    Remap start;
+    std::optional<Range> intensity, power;
+};
+
+struct FittedRemap {
+    Remap remap;
+    double error = 0; // mean square, with a penalty for a mean that cannot be met
+};
+FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Criterion criterion);
+
+// The argument inside `range` with the least error, on a logarithmic scale: octaves around `start`
+// until the least is bracketed, then Brent's method to a few percent. Each evaluation is dear.
+double fitMultiplier(const std::function<double(double)>& error, double start, Range range);
+constexpr int fitMultiplierEvaluations = 13; // about
+
+} // namespace obscura

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "protocols/reader/match.h"
+#include "renderer/probe.h"
+#include "renderer/reference/reference.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace obscura {
+
+// What techniques are compared with on a view, made once and kept in the cache of references.
+
+// A scene's triangles to trace, made when a truth is not in the cache. The scene must outlive it.
+class LazyTracer {
+  public:
+    explicit LazyTracer(const Scene& scene) : scene_(scene) {}
+    const RayTracer& get();
+
+  private:
+    const Scene& scene_;
+    std::optional<RayTracer> tracer_;
+};
+
+struct TruthInputs {
+    View view; // its radius is the integral's
+    ImageSize size;
+    int rays = 256; // per pixel
+    Normals normals = Normals::smooth;
+    std::uint64_t seed = 0;
+};
+
+// `probe` sees that view at that size. The one place that knows how each truth is made.
+Image truthOf(Truth truth, const TruthInputs& inputs, const Probe& probe, LazyTracer& tracer,
+              const std::string& sceneSha256, const std::filesystem::path& cache,
+              const TraceProgress& progress = {});
+
+// "cosine", the name in tables.
+std::string nameOf(Truth truth);
+
+// Seconds that it takes on two cores, roughly.
+double truthCost(const ImageSize& size, int rays);
+
+} // namespace obscura

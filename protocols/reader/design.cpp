@@ -1,0 +1,203 @@
+#include "protocols/reader/design.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <set>
+
+namespace obscura {
+
+namespace {
+
+using nlohmann::json;
+
+// Each struct is taken apart into all its fields: one that is added does not compile before it has
+// found its part.
+
+json toJson(const Camera& camera) {
+    const auto& [position, target, up, fovDegrees, near] = camera;
+    return {{"position", position},
+            {"target", target},
+            {"up", up},
+            {"fovDegrees", fovDegrees},
+            {"near", near}};
+}
+
+json toJson(const View& view) {
+    const auto& [name, file, builtin, camera, radius, exposure, place] = view;
+    json result = {{"camera", toJson(camera)}, {"radius", radius}, {"exposure", exposure}};
+    result[file.empty() ? "builtin" : "file"] = file.empty() ? builtin : file;
+    return result;
+}
+
+json toJson(const Sky& sky) {
+    const auto& [zenith, horizon, ground] = sky;
+    return {{"zenith", zenith}, {"horizon", horizon}, {"ground", ground}};
+}
+
+json toJson(const Sun& sun) {
+    const auto& [azimuthDegrees, elevationDegrees, irradiance] = sun;
+    return {{"azimuthDegrees", azimuthDegrees},
+            {"elevationDegrees", elevationDegrees},
+            {"irradiance", irradiance}};
+}
+
+json toJson(const Level& level) {
+    const auto& [name, ambient, background, sky, environment, sun, curve, white, occludeDirect,
+                 place] = level;
+    json result = {{"curve", curve == Curve::clamp ? "clamp" : "reinhard"},
+                   {"white", white},
+                   {"occludeDirect", occludeDirect}};
+    if (ambient) {
+        result["ambient"] = *ambient;
+        result["background"] = background;
+    }
+    if (sky)
+        result["sky"] = toJson(*sky);
+    if (!environment.empty())
+        result["environment"] = environment;
+    if (sun)
+        result["sun"] = toJson(*sun);
+    return result;
+}
+
+json toJson(const TechniqueSetting& setting) {
+    const auto& [name, technique, settings, place, preset] = setting;
+    json result = {{"technique", technique}};
+    for (const Setting& one : settings) {
+        const auto& [key, value, ownPlace] = one;
+        result[key] = value;
+    }
+    if (preset)
+        result["preset"] = preset->name;
+    return result;
+}
+
+json toJson(const ExGaussian& time) {
+    const auto& [mean, deviation, tail] = time;
+    return {{"mean", mean}, {"deviation", deviation}, {"tail", tail}};
+}
+
+json toJson(const Texts& texts) {
+    json words;
+    for (const TextKey& key : textKeys())
+        words[std::string(key.name)] = texts.*key.text;
+    return words;
+}
+
+// Conditions by their ids, since their order is no matter of the pictures.
+struct SplitConditions {
+    json stimuli = json::object(), simulated = json::object(), order = json::array();
+    std::set<std::string> views, levels, techniques; // used
+};
+
+SplitConditions split(const std::vector<Condition>& conditions) {
+    SplitConditions result;
+    for (const Condition& condition : conditions) {
+        const auto& [id, view, level, hypothesis, pair, simulated, place] = condition;
+        result.stimuli[id] = {
+            {"scene", view}, {"level", level}, {"hypothesis", hypothesis}, {"pair", pair}};
+        result.simulated[id] = {{"simulatedPreference", simulated.chooseB}};
+        result.order.push_back(id);
+        result.views.insert(view);
+        result.levels.insert(level);
+        result.techniques.insert(pair.begin(), pair.end());
+    }
+    return result;
+}
+
+// What is declared, by name, into the part of what is used, or else of what is not.
+template <typename T>
+void split(const std::vector<T>& items, const std::set<std::string>& used, const char* key,
+           json& ifUsed, json& otherwise) {
+    for (const T& item : items)
+        (used.contains(item.name) ? ifUsed : otherwise)[key][item.name] = toJson(item);
+}
+
+struct Parts {
+    json stimuli, procedure, texts;
+};
+
+Parts split(const Protocol& protocol) {
+    const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
+                 conditions, trial, ordering, words, simulation, path, sha256] = protocol;
+    const auto& [mask, grey, minimumView] = trial;
+    const auto& [scheme, participants] = ordering;
+    const auto& [positionBias, viewTime, decision] = simulation;
+    const SplitConditions parts = split(conditions);
+
+    Parts result;
+    result.stimuli = {
+        {"seed", seed},
+        {"image", {{"width", width}, {"height", height}, {"antialiasing", antialiasing}}},
+        {"normals", normalsNames()[static_cast<std::size_t>(normals)]},
+        {"conditions", parts.stimuli}};
+    static_assert(static_cast<int>(OrderScheme::thesis) == 0); // the only one so far
+    (void)scheme;
+    result.procedure = {{"trial", {{"mask", mask}, {"grey", grey}, {"minimumView", minimumView}}},
+                        {"ordering", {{"scheme", "thesis"}}},
+                        {"order of conditions", parts.order}};
+    result.texts = {{"name", name},
+                    {"title", title},
+                    {"texts", toJson(words)},
+                    {"ordering", {{"participants", participants}}},
+                    {"simulation",
+                     {{"positionBias", positionBias},
+                      {"view", toJson(viewTime)},
+                      {"decision", toJson(decision)}}},
+                    {"conditions", parts.simulated}};
+    split(views, parts.views, "scenes", result.stimuli, result.texts);
+    split(levels, parts.levels, "levels", result.stimuli, result.texts);
+    split(techniques, parts.techniques, "techniques", result.stimuli, result.texts);
+    return result;
+}
+
+// A value as a person reads it: 2, not 2.0, and of a hash only its beginning.
+std::string spell(const json& value) {
+    if (value.is_number_float())
+        return fmt::format("{}", value.get<double>());
+    const std::string text = value.dump();
+    return value.is_string() && text.size() > 60 ? text.substr(0, 13) + "...\"" : text;
+}
+
+void compare(const json& before, const json& now, const std::string& path,
+             std::vector<std::string>& found) {
+    if (before == now)
+        return;
+    if (!before.is_object() || !now.is_object()) {
+        found.push_back(fmt::format("{} was {}, is now {}", path, spell(before), spell(now)));
+        return;
+    }
+    json keys = before;
+    keys.update(now);
+    for (const auto& [key, ignored] : keys.items()) {
+        const std::string inner = path.empty() ? key : fmt::format("{}.{}", path, key);
+        if (!now.contains(key))
+            found.push_back(inner + " is gone");
+        else if (!before.contains(key))
+            found.push_back(inner + " is new");
+        else
+            compare(before[key], now[key], inner, found);
+    }
+}
+
+} // namespace
+
+ProtocolParts partsOf(const Protocol& protocol) {
+    const Parts parts = split(protocol);
+    return {parts.stimuli.dump(), parts.procedure.dump(), parts.texts.dump()};
+}
+
+std::string designOf(const Protocol& protocol) {
+    Parts parts = split(protocol);
+    parts.stimuli.update(parts.procedure);
+    return parts.stimuli.dump();
+}
+
+std::vector<std::string> differences(std::string_view before, std::string_view now) {
+    std::vector<std::string> found;
+    compare(json::parse(before), json::parse(now), "", found);
+    return found;
+}
+
+} // namespace obscura

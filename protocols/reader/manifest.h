@@ -1,0 +1,78 @@
+#pragma once
+
+#include "protocols/reader/protocol.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// All that decides the pixels of one image: enough to render it again, byte for byte on the same
+// driver. Equal recipes give equal images; what cannot be written out stands here as a hash.
+struct Recipe {
+    int width = 0, height = 0, antialiasing = 1;
+    std::uint64_t seed = 0;
+    View view;
+    std::string sceneSha256; // of the scene's files; of all that it consists of when built in
+    Level level;
+    Normals normals = Normals::smooth;
+    std::string environmentSha256;          // "" without an environment image
+    std::string technique;                  // id in the technique table
+    std::map<std::string, double> settings; // every parameter, defaults filled in, radius in metres
+    std::string shaderSha256;               // of the text of every shader that made the image
+    std::string codeSha256; // of our C++ that renders (renderer/code.h); "" in manifests before 2
+    std::string programVersion;
+    std::string glVendor, glRenderer, glVersion;
+
+    std::string json() const; // canonical: keys sorted, no white space
+    std::string sha256() const;
+};
+
+struct FileRecord {
+    std::string path; // relative to the manifest
+    std::string sha256;
+};
+
+struct ImageRecord {
+    std::string name; // of the technique setting: "blizzard24"
+    Recipe recipe;
+    std::string
+        inputsSha256; // of the G-buffer and light buffers of every jittered frame, before AO
+    double meanOcclusion = 0; // 1 - visibility, averaged over the pixels that show a surface
+    FileRecord image;         // 8-bit sRGB PNG
+    std::map<std::string, FileRecord> layers; // "ao" always; "linear", "albedo", ... on request
+};
+
+struct PairRecord {
+    std::string condition; // id
+    std::string level, view, hypothesis;
+    double radius = 0; // metres, both members'
+    ImageRecord a, b;
+};
+
+// What obscura-stimuli wrote, and all that the presenter and the report need to know of it.
+struct Manifest {
+    std::string study, title;
+    std::string protocolSha256; // of the file that they were made from
+    std::string stimuliSha256;  // of its part that decides stimuli (design.h); "" in manifests
+                                // that were written before there was one
+    std::string commit;
+    int width = 0, height = 0;
+    std::vector<PairRecord> pairs;
+    std::vector<FileRecord> contactSheets; // pages in order
+
+    int schemaVersion = 2;        // of the file that was read
+    std::filesystem::path folder; // where it was read from; paths are relative to it
+};
+
+// What differs between two recipes, as "settings.radius: 0.3, now 0.4", by the keys of their JSON.
+std::vector<std::string> differences(const Recipe& recorded, const Recipe& now);
+
+// manifest.json of a stimulus folder. Reading checks every field and names the one that is amiss.
+// A file of an earlier version is read too; what it lacks is empty, and schemaVersion tells.
+Manifest readManifest(const std::filesystem::path& path);
+void writeManifest(const std::filesystem::path& path, const Manifest& manifest);
+
+} // namespace obscura

@@ -1,0 +1,305 @@
+#include "protocols/reader/protocol.h"
+
+#include "protocols/reader/study_parts.h"
+
+#include "base/files.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <regex>
+#include <set>
+
+namespace obscura {
+
+namespace {
+
+template <typename T>
+const T& find(const std::vector<T>& items, const std::string& name) {
+    return *std::find_if(items.begin(), items.end(),
+                         [&](const T& item) { return item.name == name; });
+}
+
+// A name of something declared elsewhere in the file.
+template <typename T>
+std::string reference(TomlTable& table, std::string_view key, const std::vector<T>& items,
+                      std::string_view kind) {
+    std::string name = table.text(key);
+    mustExist(table.placeOf(*table.node(key), table.pathOf(key)), name, items, kind);
+    return name;
+}
+
+Sky parseSky(TomlTable table) {
+    Sky sky;
+    sky.zenith = table.triple("zenith", 0, 1e3, sky.zenith);
+    sky.horizon = table.triple("horizon", 0, 1e3, sky.horizon);
+    sky.ground = table.triple("ground", 0, 1e3, sky.ground);
+    table.finish();
+    return sky;
+}
+
+Sun parseSun(TomlTable table) {
+    Sun sun;
+    sun.azimuthDegrees = table.number("azimuthDegrees", -360, 360);
+    sun.elevationDegrees = table.number("elevationDegrees", 0.5, 90);
+    sun.irradiance = table.triple("irradiance", 0, 1e4, sun.irradiance);
+    table.finish();
+    return sun;
+}
+
+} // namespace
+
+Level parseLevel(const std::string& name, TomlTable table) {
+    Level level;
+    level.name = name;
+    level.place = table.place();
+    const bool constant = table.has("ambient"), sky = table.has("sky"),
+               image = table.has("environment");
+    if (constant + sky + image != 1)
+        throw Error(level.place, fmt::format("expected exactly one of \"ambient\", \"sky\" and "
+                                             "\"environment\", found {}",
+                                             constant + sky + image == 0 ? "none" : "several"));
+    if (constant) {
+        level.ambient = table.triple("ambient", 0, 1e3);
+        level.background = table.triple("background", 0, 1, level.background);
+    } else if (sky) {
+        level.sky = parseSky(*table.table("sky"));
+    } else {
+        level.environment = table.text("environment");
+    }
+    if (auto sun = table.table("sun"))
+        level.sun = parseSun(std::move(*sun));
+    level.curve = table.choice("curve", {"clamp", "reinhard"}, constant ? 0 : 1) == 0
+                      ? Curve::clamp
+                      : Curve::reinhard;
+    level.white = table.number("white", 0.01, 1e4, level.white);
+    level.occludeDirect = table.flag("occludeDirect", level.occludeDirect);
+    table.finish();
+    return level;
+}
+
+namespace {
+
+// One member of a pair: a technique's name. A table could only say what must not differ.
+std::string parseMember(TomlTable& condition, const toml::node& node, std::size_t index,
+                        const Protocol& protocol) {
+    const std::string path = fmt::format("{}[{}]", condition.pathOf("pair"), index + 1);
+    const Place place = condition.placeOf(node, path);
+    if (const toml::table* table = node.as_table()) {
+        for (const auto& [key, value] : *table)
+            if (key.str() != "technique")
+                throw Error(condition.placeOf(value, fmt::format("{}.{}", path, key.str())),
+                            fmt::format("the members of a pair may differ only in the technique; "
+                                        "\"{}\" belongs to the condition",
+                                        key.str()));
+    }
+    const toml::node* named = node.is_table() ? node.as_table()->get("technique") : &node;
+    if (!named || !named->is_string())
+        throw Error(place, fmt::format("expected the name of a technique under [techniques], "
+                                       "found {}",
+                                       TomlTable::spell(node)));
+    std::string name = *named->value<std::string>();
+    mustExist(place, name, protocol.techniques, "a technique under [techniques]");
+    return name;
+}
+
+std::optional<double> ownRadius(const TechniqueSetting& technique) {
+    for (const Setting& setting : technique.settings)
+        if (setting.name == "radius")
+            return setting.value;
+    return std::nullopt;
+}
+
+void checkPair(const Condition& condition, const Protocol& protocol, const Place& place) {
+    if (condition.pair[0] == condition.pair[1])
+        throw Error(place, fmt::format("expected two different techniques, found \"{}\" twice",
+                                       condition.pair[0]));
+    const TechniqueSetting& a = protocol.technique(condition.pair[0]);
+    const TechniqueSetting& b = protocol.technique(condition.pair[1]);
+    if (a.technique == "none" || b.technique == "none")
+        return;
+    const double common = protocol.view(condition.view).radius;
+    const double radiusA = ownRadius(a).value_or(common), radiusB = ownRadius(b).value_or(common);
+    if (radiusA != radiusB)
+        throw Error(
+            place, fmt::format("the members of a pair may differ only in the technique; \"{}\" has "
+                               "radius {} m, \"{}\" {} m. Give both the same, or none, and the "
+                               "scene's radius is used",
+                               a.name, radiusA, b.name, radiusB));
+}
+
+Condition parseCondition(TomlTable table, const Protocol& protocol) {
+    Condition condition;
+    condition.place = table.place();
+    condition.id = table.text("id");
+    checkName(table, "id", condition.id, "-", " and hyphens");
+    condition.view = reference(table, "scene", protocol.views, "a scene under [scenes]");
+    condition.level = reference(table, "level", protocol.levels, "a level under [levels]");
+    condition.hypothesis = table.text("hypothesis", "-");
+    condition.simulated.chooseB =
+        table.number("simulatedPreference", 0, 1, condition.simulated.chooseB);
+
+    const toml::node* pair = table.node("pair");
+    const toml::array* members = pair ? pair->as_array() : nullptr;
+    if (!members || members->size() != 2)
+        throw Error(pair ? table.placeOf(*pair, table.pathOf("pair")) : table.place(),
+                    fmt::format("expected the names of two techniques, found {}",
+                                pair ? TomlTable::spell(*pair) : "no \"pair\""));
+    for (std::size_t i = 0; i < 2; ++i)
+        condition.pair[i] = parseMember(table, *members->get(i), i, protocol);
+    checkPair(condition, protocol, table.placeOf(*pair, table.pathOf("pair")));
+    table.finish();
+    return condition;
+}
+
+void parseConditions(TomlTable& root, Protocol& protocol) {
+    std::set<std::string> ids;
+    for (TomlTable& table : root.list("conditions", "at least one [[conditions]] table")) {
+        Condition condition = parseCondition(std::move(table), protocol);
+        if (!ids.insert(condition.id).second)
+            throw Error(condition.place,
+                        fmt::format("expected a new id, found \"{}\" again", condition.id));
+        protocol.conditions.push_back(std::move(condition));
+    }
+}
+
+Trial parseTrial(TomlTable table) {
+    Trial trial;
+    trial.mask = table.number("mask", 0.1, 60, trial.mask);
+    trial.grey = table.integer("grey", 0, 255, trial.grey);
+    trial.minimumView = table.number("minimumView", 0, 60, trial.minimumView);
+    table.finish();
+    return trial;
+}
+
+Ordering parseOrdering(TomlTable table) {
+    Ordering ordering;
+    table.choice("scheme", {"thesis"}, 0);
+    ordering.participants = table.integer("participants", 1, 100000, ordering.participants);
+    table.finish();
+    return ordering;
+}
+
+// Braces that stand around no number's name are a misspelt one.
+void checkProgress(const std::string& text, const Place& place) {
+    static const std::regex numbers(R"(\{pairs?\})");
+    if (std::regex_replace(text, numbers, "").find_first_of("{}") != std::string::npos)
+        throw Error(place, fmt::format("expected no braces but those of {{pair}} and {{pairs}}, "
+                                       "found \"{}\"",
+                                       text));
+}
+
+Texts parseTexts(TomlTable table) {
+    Texts texts;
+    for (const TextKey& key : textKeys()) {
+        std::string& text = texts.*key.text;
+        text = table.text(key.name, key.compulsory ? std::nullopt : std::optional(text));
+        if (const toml::node* node = table.node(key.name))
+            texts.places[std::string(key.name)] = table.placeOf(*node, table.pathOf(key.name));
+    }
+    table.finish();
+    checkProgress(texts.progress, texts.places["progress"]);
+    return texts;
+}
+
+ExGaussian parseTime(std::optional<TomlTable> table, ExGaussian fallback) {
+    if (!table)
+        return fallback;
+    fallback.mean = table->number("mean", 0, 600, fallback.mean);
+    fallback.deviation = table->number("deviation", 0, 600, fallback.deviation);
+    fallback.tail = table->number("tail", 0, 600, fallback.tail);
+    table->finish();
+    return fallback;
+}
+
+Simulation parseSimulation(TomlTable table) {
+    Simulation simulation;
+    simulation.positionBias = table.number("positionBias", -0.5, 0.5, simulation.positionBias);
+    simulation.view = parseTime(table.table("view"), simulation.view);
+    simulation.decision = parseTime(table.table("decision"), simulation.decision);
+    table.finish();
+    return simulation;
+}
+
+void parseImage(TomlTable table, Protocol& protocol) {
+    protocol.width = table.integer("width", 16, 8192, protocol.width);
+    protocol.height = table.integer("height", 16, 8192, protocol.height);
+    protocol.antialiasing = table.integer("antialiasing", 1, 64, protocol.antialiasing);
+    table.finish();
+}
+
+Protocol parseRoot(TomlTable root, std::string& includedSha256) {
+    Protocol protocol;
+    protocol.name = root.text("name");
+    checkName(root, "name", protocol.name, "-", " and hyphens");
+    protocol.title = root.text("title", protocol.name);
+    protocol.seed = static_cast<std::uint64_t>(root.integer("seed", 0, 2147483647));
+    if (auto image = root.table("image"))
+        parseImage(std::move(*image), protocol);
+    protocol.normals = parseNormals(root);
+    for (auto& [name, table] : root.tables("scenes", "at least one scene, [scenes.NAME]"))
+        protocol.views.push_back(parseView(name, std::move(table)));
+    for (auto& [name, table] : root.tables("levels", "at least one level, [levels.NAME]"))
+        protocol.levels.push_back(parseLevel(name, std::move(table)));
+    Techniques techniques = parseTechniques(root);
+    protocol.techniques = std::move(techniques.techniques);
+    includedSha256 = techniques.includedSha256;
+    parseConditions(root, protocol);
+    if (auto trial = root.table("trial"))
+        protocol.trial = parseTrial(std::move(*trial));
+    if (auto ordering = root.table("ordering"))
+        protocol.ordering = parseOrdering(std::move(*ordering));
+    protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"));
+    if (auto simulation = root.table("simulation"))
+        protocol.simulation = parseSimulation(std::move(*simulation));
+    root.finish();
+    return protocol;
+}
+
+} // namespace
+
+std::span<const TextKey> textKeys() {
+    static const std::vector<TextKey> keys = {
+        {"instructions", &Texts::instructions, true},
+        {"start", &Texts::start, true},
+        {"question", &Texts::question, true},
+        {"first", &Texts::first, true},
+        {"second", &Texts::second, true},
+        {"thanks", &Texts::thanks, true},
+        {"progress", &Texts::progress},
+        {"space", &Texts::space},
+        {"anyKey", &Texts::anyKey},
+        {"loading", &Texts::loading},
+        {"unfocused", &Texts::unfocused},
+        {"leave", &Texts::leave},
+        {"leaveNote", &Texts::leaveNote},
+        {"stay", &Texts::stay},
+        {"end", &Texts::end},
+        {"id", &Texts::id},
+        {"idNote", &Texts::idNote},
+        {"idMalformed", &Texts::idMalformed},
+        {"idTaken", &Texts::idTaken},
+    };
+    return keys;
+}
+
+const View& Protocol::view(const std::string& wanted) const { return find(views, wanted); }
+const Level& Protocol::level(const std::string& wanted) const { return find(levels, wanted); }
+const TechniqueSetting& Protocol::technique(const std::string& wanted) const {
+    return find(techniques, wanted);
+}
+
+Protocol parseProtocol(const std::string& text, const std::string& file) {
+    const toml::table table = parseToml(text, file);
+    std::string includedSha256;
+    Protocol protocol = parseRoot(TomlTable(table, file, ""), includedSha256);
+    protocol.sha256 = studySha256(text, includedSha256);
+    return protocol;
+}
+
+Protocol readProtocol(const std::filesystem::path& path) {
+    Protocol protocol = parseProtocol(readFile(path), path.string());
+    protocol.path = path;
+    return protocol;
+}
+
+} // namespace obscura

@@ -1,0 +1,118 @@
+#pragma once
+
+#include "protocols/reader/study.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace obscura {
+
+// A study as one TOML file says it. parseProtocol() checks everything that needs neither the
+// technique table nor a scene file: what it returns has no unknown key, wrong type, value out of
+// range, or pair whose members differ in more than the technique. docs/protocols.md has each key.
+
+// How a simulated participant answers; never used for real ones.
+struct SimulatedChoice {
+    double chooseB = 0.5; // probability of choosing member b, before position bias
+};
+
+// Two images alike in everything but the technique: member 0 is "a", member 1 is "b".
+struct Condition {
+    std::string id;
+    std::string view;  // name of one of `views`
+    std::string level; // name of one of `levels`
+    std::string hypothesis;
+    std::array<std::string, 2> pair; // names of `techniques`
+    SimulatedChoice simulated;
+    Place place;
+};
+
+// image 1, grey mask, image 2, forced choice.
+struct Trial {
+    double mask = 2;          // seconds of grey between the images; cannot be skipped
+    int grey = 128;           // code value of mask and surround, 0 ... 255
+    double minimumView = 0.5; // seconds during which Space does not yet end an image
+};
+
+enum class OrderScheme { thesis };
+
+struct Ordering {
+    OrderScheme scheme = OrderScheme::thesis;
+    int participants = 28; // planned; what --simulate runs when no number is given
+};
+
+// Everything that participants read, UTF-8. A study says what it asks; the rest is English unless
+// it says otherwise, so that a study in another language can translate all of it.
+struct Texts {
+    std::string instructions, start, question, first, second, thanks;
+    std::string progress = "{pair} / {pairs}"; // above `start`, with the numbers put in
+    std::string space = "Space";               // the key's name
+    std::string anyKey = "Press any key to end.";
+    std::string loading = "Loading the pictures. Please wait.";
+    std::string unfocused = "The keyboard is elsewhere: click here to go on";
+    std::string leave = "End the session?", leaveNote = "Answers given so far are kept.";
+    std::string stay = "Continue", end = "End";
+    std::string id = "Type the participant's pseudonym and press Enter.";
+    std::string idNote = "Letters and digits. Escape ends the program.";
+    std::string idMalformed = "A pseudonym is 1 to 32 letters (a-z) and digits.";
+    std::string idTaken = "There are data of this participant and session. Type another "
+                          "pseudonym, or press Escape and start with another --session.";
+
+    std::map<std::string, Place, std::less<>> places; // of the keys that the protocol has
+};
+
+struct TextKey {
+    std::string_view name; // under [texts]
+    std::string Texts::*text;
+    bool compulsory = false;
+};
+std::span<const TextKey> textKeys();
+
+// The stated model of simulated reaction: times are ex-Gaussian (mean and standard deviation of
+// the Gaussian part, mean of the exponential part), in seconds.
+struct ExGaussian {
+    double mean = 0, deviation = 0, tail = 0;
+};
+struct Simulation {
+    double positionBias = 0; // added to the probability of choosing the second image, -0.5 ... 0.5
+    ExGaussian view{3.0, 0.8, 2.0};
+    ExGaussian decision{0.9, 0.2, 0.5};
+};
+
+struct Protocol {
+    std::string name; // lower-case letters, digits and hyphens; names the data folder
+    std::string title;
+    std::uint64_t seed = 0;
+    int width = 1280, height = 720;
+    int antialiasing = 4; // jittered frames averaged per image
+    Normals normals = Normals::smooth;
+    std::vector<View> views;
+    std::vector<Level> levels;
+    std::vector<TechniqueSetting> techniques;
+    std::vector<Condition> conditions;
+    Trial trial;
+    Ordering ordering;
+    Texts texts;
+    Simulation simulation;
+
+    std::filesystem::path path; // where it was read; "" when parsed from text
+    std::string sha256;         // of the file's bytes, and of those of files it includes
+
+    // By name; the parser has made sure that those of a condition exist.
+    const View& view(const std::string& name) const;
+    const Level& level(const std::string& name) const;
+    const TechniqueSetting& technique(const std::string& name) const;
+};
+
+// `file` is the name that errors give. Throws Error with line and column.
+Protocol parseProtocol(const std::string& text, const std::string& file);
+Protocol readProtocol(const std::filesystem::path& path);
+
+} // namespace obscura

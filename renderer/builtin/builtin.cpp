@@ -1,0 +1,79 @@
+#include "renderer/builtin/builtin.h"
+
+#include "renderer/builtin/scenes.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+namespace obscura {
+
+namespace {
+
+const std::array<std::string, 3> names{"sculpture", "atrium", "figures"};
+
+template <typename T>
+void addBytes(Sha256& hash, const std::vector<T>& values) {
+    hash.add(fmt::format("{} of {} bytes\n", values.size(), sizeof(T)));
+    hash.add(std::as_bytes(std::span(values)));
+}
+
+// The structures are taken apart by as many names as they have members, so that a new member does
+// not compile until it is hashed here, too.
+
+void addMesh(Sha256& hash, const Mesh& mesh) {
+    const auto& [firstIndex, indexCount, material] = mesh;
+    hash.add(fmt::format("mesh {} {} {}\n", firstIndex, indexCount, material));
+}
+
+void addMaterial(Sha256& hash, const Material& from) {
+    const auto& [name, baseColour, baseColourTexture, normalTexture, normalScale,
+                 metallicRoughnessTexture, metallic, roughness, alphaCutoff, doubleSided] = from;
+    hash.add(fmt::format("material {:a} {:a} {:a} {:a} {} {} {:a} {} {:a} {:a} {:a} {}\n",
+                         baseColour.r, baseColour.g, baseColour.b, baseColour.a, baseColourTexture,
+                         normalTexture, normalScale, metallicRoughnessTexture, metallic, roughness,
+                         alphaCutoff, doubleSided));
+}
+
+void addTexture(Sha256& hash, const Texture& texture) {
+    const auto& [image, srgb, wrapU, wrapV, nearest] = texture;
+    const auto& [width, height, channels, pixels] = image;
+    hash.add(fmt::format("texture {} x {} x {} {} {} {} {}\n", width, height, channels, srgb,
+                         static_cast<int>(wrapU), static_cast<int>(wrapV), nearest));
+    addBytes(hash, pixels);
+}
+
+} // namespace
+
+std::string contentSha256(const Scene& scene) {
+    static_assert(sizeof(Vertex) == 12 * sizeof(float), "vertices are hashed as they lie");
+    const auto& [vertices, indices, meshes, materials, textures, sha256, warnings] = scene;
+    Sha256 hash;
+    addBytes(hash, vertices);
+    addBytes(hash, indices);
+    for (const Mesh& mesh : meshes)
+        addMesh(hash, mesh);
+    for (const Material& material : materials)
+        addMaterial(hash, material);
+    for (const Texture& texture : textures)
+        addTexture(hash, texture);
+    return hash.hex();
+}
+
+std::span<const std::string> builtinSceneNames() { return names; }
+
+Scene builtinScene(std::string_view name) {
+    constexpr std::array<Scene (*)(), 3> makers{builtin::sculpture, builtin::atrium,
+                                                builtin::figures};
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw Error(fmt::format("no built-in scene \"{}\"{}", name, suggestion(name, names)));
+    Scene scene = makers[static_cast<std::size_t>(found - names.begin())]();
+    scene.sha256 = contentSha256(scene);
+    return scene;
+}
+
+} // namespace obscura

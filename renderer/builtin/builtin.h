@@ -1,0 +1,23 @@
+#pragma once
+
+#include "renderer/scene/scene.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace obscura {
+
+// Scenes made in code, so that a study runs with no download: "sculpture" (one object with deep
+// concavities), "atrium" (two colonnaded storeys, arches, steps, drapery, vases) and "figures"
+// (a pair of figures whose base colour carries painted-in occlusion). Metres, y up.
+std::span<const std::string> builtinSceneNames();
+
+// An unknown name is an Error that gives the nearest. Its sha256 is contentSha256().
+Scene builtinScene(std::string_view name);
+
+// SHA-256 of all of a scene that decides pixels: whatever code made it, equal scenes have equal
+// hashes. Names of materials are no part of it.
+std::string contentSha256(const Scene& scene);
+
+} // namespace obscura

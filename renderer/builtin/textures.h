@@ -1,0 +1,45 @@
+#pragma once
+
+#include "renderer/scene/scene.h"
+
+#include <glm/glm.hpp>
+
+#include <functional>
+
+namespace obscura::builtin {
+
+// What a painter puts in one place of a texture.
+struct Texel {
+    glm::vec3 colour{0.5F}; // sRGB code values, 0 ... 1
+    float height = 0;       // metres above the surface
+    float roughness = 1;
+    float alpha = 1;
+};
+// Of texture coordinates in [0, 1)², v downwards; must repeat at the edges.
+using Painter = std::function<Texel(glm::vec2)>;
+
+struct Canvas {
+    int size;     // texels across, a power of two
+    float metres; // that the texture covers
+    bool relief = true;
+    bool gloss = false; // roughness varies; else the material's own holds throughout
+};
+// Paints the textures of a new material and returns its index.
+int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Painter& painter);
+
+// A texture of colours (and alpha) that were worked out elsewhere.
+int addColourTexture(Scene& scene, Image8 image);
+
+// The painters of the atrium. Metres across: see each.
+Painter ashlar();      // 4 m: courses of cut sandstone
+Painter limestone();   // 1.5 m: pale, veined, pitted
+Painter fresco();      // 3 m: a bay of painted plaster; a red dado below panels on ochre
+Painter plaster();     // 3 m: rough and stained
+Painter flagstones();  // 4 m: worn paving in three widths
+Painter marbleFloor(); // 3 m: polished squares and lozenges
+Painter timber();      // 2 m: planks along u
+Painter cloth(glm::vec3 colour, glm::vec3 trim); // 2 m: a weave with a patterned hem
+Painter glaze(glm::vec3 colour);                 // 1 m: a crackled ceramic glaze
+Painter frond();                                 // a palm leaf along v, cut out by alpha
+
+} // namespace obscura::builtin

@@ -1,0 +1,50 @@
+#include "renderer/frame/composite.h"
+
+#include <cmath>
+
+namespace obscura {
+
+gl::ShaderText compositeShader() { return shaderText("composite.frag"); }
+
+Composite::Composite(const View& view, const Level& level, int width, int height, bool linear)
+    : program_("composite", shaderText("screen.vert"), compositeShader()),
+      sum_(width, height, std::vector<gl::Format>(linear ? 2 : 1, gl::Format::rgba32f), false,
+           "sum of frames") {
+    restart();
+    program_.set("exposure", static_cast<float>(std::exp2(view.exposure)));
+    program_.set("white", level.curve == Curve::clamp ? 0.0f : static_cast<float>(level.white));
+    program_.set("hasDirect", level.sun ? 1 : 0);
+    program_.set("occludeDirect", level.occludeDirect ? 1 : 0);
+}
+
+void Composite::restart() {
+    for (int i = 0; i < sum_.count(); ++i)
+        sum_.clear(i, {0, 0, 0, 0});
+    frames_ = 0;
+}
+
+void Composite::draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight,
+                     int guard) {
+    sum_.bind();
+    gl::State state;
+    state.add = true;
+    state.apply();
+    program_.use();
+    program_.set("sendsLight", sendsLight ? 1 : 0);
+    program_.set("guard", guard);
+    gl::bindTexture(0, light.ambient());
+    gl::bindTexture(1, light.direct());
+    gl::bindTexture(2, visibility);
+    triangle_.draw();
+    ++frames_;
+}
+
+std::vector<float> Composite::mean(int colour) const {
+    std::vector<float> values =
+        gl::readFloats(sum_.colour(colour), sum_.width(), sum_.height(), sum_.format(colour));
+    for (float& value : values)
+        value /= static_cast<float>(frames_);
+    return values;
+}
+
+} // namespace obscura

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "renderer/frame/light.h"
+
+namespace obscura {
+
+// Puts an image together: ambient light x visibility + direct light, exposure, display curve. Each
+// draw() adds a jittered frame; mean() is their average. Averaging follows the display curve, as
+// the eye averages what a display shows; only then edges next to very bright light are smooth.
+class Composite {
+  public:
+    // `linear` keeps the average before the display curve too.
+    Composite(const View& view, const Level& level, int width, int height, bool linear);
+
+    // The visibility buffer is `guard` pixels wider than the image on every side; with `sendsLight`
+    // its other channels are light to add (technique.h).
+    void draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight = false,
+              int guard = 0);
+
+    void restart(); // without frames
+
+    // Red, green, blue (display-linear, 0 ... 1) and visibility; rows from the bottom.
+    std::vector<float> mean() const { return mean(0); }
+    // Scene-linear red, green, blue, times 2^exposure; the fourth is 1.
+    std::vector<float> meanLinear() const { return mean(1); }
+
+  private:
+    std::vector<float> mean(int colour) const;
+
+    gl::Program program_;
+    gl::Target sum_;
+    gl::ScreenTriangle triangle_;
+    int frames_ = 0;
+};
+
+// For recipes.
+gl::ShaderText compositeShader();
+
+} // namespace obscura

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "renderer/scene/scene.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace obscura {
+
+// A primitive while it is read: its corners, three a triangle, as indices into the vertices that
+// they use.
+struct Piece {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> corners;
+};
+
+// The unit vector, or zero where there is no direction: of zero, and of what is not finite.
+glm::vec3 direction(const glm::dvec3& v);
+
+// glTF: without normals, every triangle is flat.
+void makeFlat(Piece& piece);
+
+// Normals that are no direction become those of the triangles around; how many there were.
+std::size_t mendNormals(Piece& piece);
+
+// Far from zero, texture coordinates lose their digits, and shaders bound them (material.glsl):
+// such a piece's triangles are moved next to zero, each on its own, by whole periods of a texture
+// that repeats along u, along v or along both, mirrored or not.
+void recentre(Piece& piece, bool alongU, bool alongV);
+
+} // namespace obscura

@@ -1,0 +1,87 @@
+#pragma once
+
+#include "image/image.h"
+#include <glm/glm.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// A static scene as the renderer and the ray tracer need it: triangles in world space (metres,
+// y up), with node transforms already applied. Nothing unused is kept.
+
+struct Vertex {
+    glm::vec3 position{0};
+    glm::vec3 normal{0};
+    glm::vec4 tangent{0}; // w: sign of the bitangent; all zero where no normal map applies
+    glm::vec2 uv{0};
+};
+
+// What a texture shows beyond its borders.
+enum class Wrap { repeat, mirrored, clamp };
+
+struct Texture {
+    Image8 image;      // 4 channels, 8 bits
+    bool srgb = false; // colour, not data
+    Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
+    bool nearest = false; // enlarged, its texels are squares
+};
+
+// glTF 2.0 metallic-roughness, as far as it is used. Texture indices are into Scene::textures,
+// -1 for none.
+struct Material {
+    std::string name;
+    glm::vec4 baseColour{1}; // linear, multiplied with the texture
+    int baseColourTexture = -1;
+    int normalTexture = -1;
+    float normalScale = 1;
+    int metallicRoughnessTexture = -1; // roughness in green, metallic in blue
+    float metallic = 0;
+    float roughness = 1;
+    float alphaCutoff = 0; // > 0: texels with less alpha are holes
+    bool doubleSided = false;
+};
+
+// A run of triangles of one material: three indices each.
+struct Mesh {
+    std::uint32_t firstIndex = 0, indexCount = 0;
+    int material = 0;
+};
+
+struct Bounds {
+    glm::vec3 low{0}, high{0};
+};
+
+struct Scene {
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::string sha256;                // of every file read; of name and version when built in
+    std::vector<std::string> warnings; // what the file uses and we do not show
+
+    Bounds bounds() const; // of the positions; of the origin for an empty scene
+};
+
+// glTF 2.0 (.gltf or .glb). Node transforms are applied; missing normals become flat, missing
+// tangents are derived where a normal map needs them. What the file requires and we cannot show is
+// an Error; what it merely uses is a warning.
+Scene loadScene(const std::filesystem::path& path);
+
+// SHA-256 of the file and all files it refers to, as Scene::sha256, without decoding any.
+std::string sceneSha256(const std::filesystem::path& path);
+
+// Derives per-vertex tangents from positions, normals and texture coordinates (Lengyel 2001).
+// Indices are into `scene.vertices`, three a triangle.
+// Vertices without a usable direction get none: zero.
+void deriveTangents(Scene& scene, const Mesh& mesh);
+
+// Sets tangents that are no direction, or the normal's, to zero, which shaders take for "no normal
+// map here"; how many of the mesh's vertices have none.
+std::size_t dropUnusableTangents(Scene& scene, const Mesh& mesh);
+
+} // namespace obscura

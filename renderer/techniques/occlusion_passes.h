@@ -1,0 +1,105 @@
+#pragma once
+
+#include "renderer/frame/light.h"
+#include "renderer/techniques/reduction.h"
+#include "renderer/techniques/settings.h"
+
+#include <functional>
+#include <optional>
+
+namespace obscura {
+
+// What a pass's shader writes: its value, or how many texture fetches that takes
+// (renderer/techniques/fetches.h).
+enum class Writes { value, fetches };
+
+// The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
+// technique's file, and a main that calls the pass's function. `level` 1 is the text for the levels
+// after the first. splat's vertex shader comes from splatShader().
+gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0,
+                          Writes writes = Writes::value);
+gl::ShaderText splatShader(const Settings& settings);
+gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 0,
+                        Writes writes = Writes::value);
+// In order; those that settings switch off left out.
+std::vector<const Pass*> enabledPasses(const Settings& settings);
+// What the pass writes under these settings.
+gl::Format formatOf(const Settings& settings, const Pass& pass);
+
+// Pixels that the technique wants rendered beyond each border of an image (guardBand).
+int guardPixels(const Settings& settings, int height);
+// Of GPU memory that the technique's passes write to, at this size.
+double occlusionBytes(const Settings& settings, int width, int height);
+// Every which pixel across and down the technique works on.
+int downscaleOf(const Settings& settings);
+
+// The scene's proxy spheres where shaders can read them: world position, radius (metres).
+class ProxySpheres {
+  public:
+    explicit ProxySpheres(std::span<const glm::vec4> spheres);
+    int count() const { return count_; }
+    void bind(int binding) const { buffer_.bind(binding); }
+
+  private:
+    int count_;
+    gl::UniformBuffer buffer_;
+};
+
+// What techniques may read, each there where the technique's row asks for it.
+struct OcclusionInputs {
+    const GBuffer& gbuffer;
+    const LightBuffers* light = nullptr;
+    const Lighting* lighting = nullptr;
+    const ProxySpheres* spheres = nullptr;
+    const Frame* frame = nullptr; // the one that is bound; for `downscale`
+};
+
+// Called after each pass has been issued, for timing and counting. What the pass read and gave is
+// bound.
+using PassObserver = std::function<void(const Pass&)>;
+
+// Runs a pass's program over level 0 of a target, in all layers. What it reads must be bound.
+void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
+              const gl::ScreenTriangle& triangle, const ProxySpheres* spheres);
+
+// A technique's passes over a G-buffer of one size: depth (and what else it reads) in, visibility
+// out.
+class OcclusionPasses {
+  public:
+    OcclusionPasses(const Settings& settings, int width, int height);
+
+    // From now on with other values, which spares compiling; whole numbers, which are constants of
+    // the shaders, must be the same.
+    void set(const Settings& settings);
+
+    // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
+    // texture lives as long as this object.
+    const gl::Texture& visibility(const OcclusionInputs& inputs,
+                                  const PassObserver& issued = {}) const;
+    // Whether that texture's other channels are light to add (technique.h).
+    bool sendsLight() const;
+
+    // What a pass gave in the last run, for tests and for looking at.
+    const gl::SlicedTarget& result(std::string_view pass) const;
+
+  private:
+    struct Step {
+        const Pass* pass;
+        gl::Program program;
+        std::optional<gl::Program> levelProgram;
+        gl::SlicedTarget target;
+        int unit; // that later passes read it from
+    };
+    void bindInputs(const OcclusionInputs& inputs) const;
+    void run(const Step& step, const OcclusionInputs& inputs) const;
+
+    mutable std::optional<Reduction> reduction_; // keeps its frame
+    std::vector<Step> steps_;
+    Settings settings_;
+    gl::UniformBuffer block_;
+    std::optional<gl::UniformBuffer> points_;
+    gl::Texture open_; // what a technique without passes shows
+    gl::ScreenTriangle triangle_;
+};
+
+} // namespace obscura

@@ -1,0 +1,197 @@
+#pragma once
+
+#include "renderer/techniques/rows/common.h"
+
+// Ground-truth AO in the form of XeGTAO, and the visibility bitmask. Both look along slices through
+// the view vector (shaders/slices.glsl) and share their noise, depth levels and denoising.
+namespace obscura::rows::gtao {
+
+constexpr Parameter slices{
+    "slices", Unit::count,          "planes through the view vector, per pixel", 3, 1,
+    64,       "XeGTAO, preset high"};
+constexpr Parameter slicesSteps{
+    "steps", Unit::count,          "depth taps along each side of a slice", 3, 1,
+    256,     "XeGTAO, preset high"};
+constexpr Parameter samplePower{
+    "samplePower",
+    Unit::ratio,
+    "exponent of a tap's place along its side; above 1 taps gather near the pixel",
+    2,
+    1,
+    4,
+    "XeGTAO, tuned against ray tracing"};
+constexpr Parameter levelOffset{
+    "levelOffset",
+    Unit::ratio,
+    "binary logarithm of the distance in pixels up to which taps read full resolution, and beyond "
+    "which averaged depth; 16: all do",
+    3.3f,
+    0,
+    16,
+    "XeGTAO 1.30"};
+constexpr Parameter denoise{
+    "denoise", Unit::count, "passes of the edge-aware 3 x 3 filter: 1 sharp, 2 medium, 3 soft",   2,
+    0,         3,           "ours: XeGTAO's 1 counts on temporal accumulation, which we have not"};
+
+constexpr Parameter adaptive{
+    "adaptive",
+    Unit::flag,
+    "fewer slices where a survey of every fourth pixel, one slice each, finds visibility to vary "
+    "little",
+    0,
+    0,
+    1,
+    "XeGTAO has none; after ASSAO 2016 and CACAO 2020"};
+constexpr Parameter adaptiveRange{
+    "adaptiveRange",
+    Unit::ratio,
+    "range of the survey's visibility around a pixel from which it gets all slices; less gives "
+    "fewer in proportion, down to one",
+    0.15f,
+    0.01f,
+    1,
+    "ours: on Sponza from 0.06 to 0.2 equally good"};
+
+constexpr Parameter gtaoParameters[] = {
+    radius,
+    slices,
+    slicesSteps,
+    {"falloff", Unit::ratio,
+     "outer share of the radius over which occluders fade; 0 ends them sharply", 0.615f, 0, 1,
+     "XeGTAO, tuned against ray tracing"},
+    {"thinOccluder", Unit::ratio,
+     "how much farther occluders count as their distance along the view grows, so that thin things "
+     "block less",
+     0, 0, 0.7f, "XeGTAO, off"},
+    {"minimumVisibility", Unit::ratio, "visibility, after its power, that is never undercut", 0.03f,
+     0, 1, "XeGTAO"},
+    {"bentNormals", Unit::flag,
+     "light from the mean open direction instead of the normal's; shows with uneven ambient light "
+     "only",
+     0, 0, 1, "XeGTAO, off"},
+    samplePower,
+    levelOffset,
+    adaptive,
+    adaptiveRange,
+    denoise,
+    radiusMultiplier(1.457f, "XeGTAO, tuned against ray tracing"),
+    intensity(),
+    power(2.2f, "XeGTAO, tuned against ray tracing"),
+    downscale};
+
+constexpr Parameter bitmaskParameters[] = {
+    radius,
+    slices,
+    slicesSteps,
+    {"thickness", Unit::ratio,
+     "how far, in radii, every surface extends behind what is seen of it; light passes behind",
+     0.5f, 1e-3f, 1e6f, "Bevy: 0.25 m at our radius of 0.5 m"},
+    samplePower,
+    levelOffset,
+    adaptive,
+    adaptiveRange,
+    denoise,
+    radiusMultiplier(),
+    intensity(),
+    power(),
+    downscale};
+
+constexpr Pass depthLevelsPass{.name = "depths",
+                               .format = Format::r32f,
+                               .levels = 5,
+                               .work = Work::prepare,
+                               .fetches = one,
+                               .levelFetches = [](const Settings&) { return 4.0; }};
+constexpr Pass surveyPass{.name = "survey",
+                          .format = Format::r16f,
+                          .enabledBy = "adaptive",
+                          .scale = 4,
+                          .work = Work::prepare,
+                          .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"]; }};
+constexpr Pass countsPass{.name = "counts",
+                          .format = Format::r16f,
+                          .enabledBy = "adaptive",
+                          .scale = 4,
+                          .work = Work::prepare,
+                          .fetches = [](const Settings&) { return 9.0; }};
+// Depth and normal of the pixel and how many slices it gets; of each tap along both sides of each
+// slice, depth.
+constexpr Fetches slicesTaps = [](const Settings& s) {
+    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"];
+};
+constexpr Pass edgesPass{.name = "edges",
+                         .format = Format::rgba8,
+                         .enabledBy = "denoise",
+                         .work = Work::prepare,
+                         .fetches = [](const Settings&) { return 5.0; }};
+// Depth of the pixel, edges of it and its four neighbours; nine values, where there is but red in
+// four.
+constexpr Pass denoisePass(std::string_view name, int from, std::string_view widenedBy = {}) {
+    return {.name = name,
+            .format = Format::r16f,
+            .enabledBy = "denoise",
+            .from = from,
+            .widenedBy = widenedBy,
+            .work = Work::filter,
+            .fetches = [](const Settings& s) {
+                const bool wide = s.has("bentNormals") && s["bentNormals"] > 0;
+                return 1.0 + 5 + (wide ? 9 : 4);
+            }};
+}
+
+// Widened, green, blue and alpha carry the bent normal. bentLight reads that, depth, normal and
+// albedo.
+constexpr Pass gtaoPasses[] = {
+    depthLevelsPass,
+    surveyPass,
+    countsPass,
+    {.name = "gather", .format = Format::r16f, .widenedBy = "bentNormals", .fetches = slicesTaps},
+    edgesPass,
+    denoisePass("denoiseOnce", 1, "bentNormals"),
+    denoisePass("denoiseTwice", 2, "bentNormals"),
+    denoisePass("denoiseThrice", 3, "bentNormals"),
+    {.name = "bentLight",
+     .format = Format::rgba16f,
+     .enabledBy = "bentNormals",
+     .fetches = [](const Settings&) { return 4.0; }},
+};
+
+constexpr Pass bitmaskPasses[] = {
+    depthLevelsPass,
+    surveyPass,
+    countsPass,
+    {.name = "gather", .format = Format::r16f, .fetches = slicesTaps},
+    edgesPass,
+    denoisePass("denoiseOnce", 1),
+    denoisePass("denoiseTwice", 2),
+    denoisePass("denoiseThrice", 3),
+};
+
+// XeGTAO's, in slices and steps.
+constexpr PresetValue presetLow[] = {{"slices", 1}, {"steps", 2}};
+constexpr PresetValue presetMedium[] = {{"slices", 2}, {"steps", 2}};
+constexpr PresetValue presetHigh[] = {{"slices", 3}, {"steps", 3}};
+constexpr PresetValue presetUltra[] = {{"slices", 9}, {"steps", 3}};
+constexpr Preset slicesPresets[] = {
+    {"low", presetLow}, {"medium", presetMedium}, {"high", presetHigh}, {"ultra", presetUltra}};
+
+constexpr Technique gtao{"gtao",
+                         "Ground-truth AO (XeGTAO)",
+                         "Jimenez, Wu, Pesce and Jarabo 2016; parameters of XeGTAO 1.30 (Strugar "
+                         "and McCalla 2021)",
+                         normals | light,
+                         nullptr,
+                         gtaoParameters,
+                         gtaoPasses,
+                         slicesPresets};
+constexpr Technique visibilityBitmask{
+    "visibility_bitmask",
+    "Visibility bitmask 2023",
+    "Therrien, Levesque and Gilet 2023, with cosine-weighted sectors",
+    normals,
+    nullptr,
+    bitmaskParameters,
+    bitmaskPasses,
+    slicesPresets};
+
+} // namespace obscura::rows::gtao

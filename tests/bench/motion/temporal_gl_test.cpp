@@ -1,0 +1,111 @@
+// Whole tests on a small scene.
+#include "bench/motion/temporal.h"
+#include "bench/motion/temporal_tests.h"
+#include "tests/renderer/techniques/occlusion_fixture.h"
+
+#include "base/error.h"
+
+#include <algorithm>
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+
+NamedSettings named(const char* id) { return {id, Settings(technique(id))}; }
+
+class Temporal : public GlTest {
+  protected:
+    Temporal() {
+        addQuad(scene_, {glm::vec3(-4, 0, 4), glm::vec3(4, 0, 4), glm::vec3(4, 0, -4),
+                         glm::vec3(-4, 0, -4)});
+        addQuad(scene_, {glm::vec3(-1, 0, -1), glm::vec3(1.5, 0, -1), glm::vec3(1.5, 2, -1),
+                         glm::vec3(-1, 2, -1)});
+        camera_.position = {1, 1.5, 3};
+        camera_.target = {0, 0.3, -1};
+        folder_ = fs::path(testing::TempDir()) / "temporal";
+    }
+    TemporalStudy study(std::vector<std::string> tests) const {
+        return {scene_,
+                camera_,
+                0.5,
+                {named("none"), named("starcraft"), named("alchemy"), named("ray_traced")},
+                {64, 36, 4, 64, std::move(tests)},
+                folder_};
+    }
+    static double value(const std::vector<StabilityCell>& cells, const std::string& technique,
+                        const std::string& test) {
+        for (const StabilityCell& cell : cells)
+            if (cell.technique == technique && cell.test == test &&
+                cell.measure == temporalTest(test).test.measure)
+                return cell.value;
+        throw Error("expected a cell of " + technique);
+    }
+
+    Scene scene_;
+    Camera camera_;
+    fs::path folder_;
+};
+
+// Mean change of the truth over points that both frames show.
+double ownChange(const Shot& before, const Shot& now) {
+    const Reprojection back(now.surfaces, before.surfaces);
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < now.truth.pixels.size(); ++i)
+        if (back.valid(i)) {
+            sum += std::abs(static_cast<double>(now.truth.pixels[i]) -
+                            static_cast<double>(back.fetch(before.truth, i)));
+            ++count;
+        }
+    return sum / count;
+}
+
+TEST_F(Temporal, NoneChangesByWhatItLacks) {
+    const auto cells = measureTemporal(study({"cut"}));
+    const Shots shots(scene_, {}, 64, 36);
+    const auto shot = [&](int frame) {
+        Shot taken = shots.take(temporalTest("cut").camera(camera_, frame, 4), 1, {});
+        taken.truth = shots.truth(taken.surfaces, {Integral::cosine, 0.5, 64, 0});
+        return taken;
+    };
+    const double own = ownChange(shot(0), shot(3));
+    EXPECT_GT(own, 1e-3);
+    EXPECT_NEAR(value(cells, "none", "cut"), own, 1e-6);
+    EXPECT_LT(value(cells, "ray_traced", "cut"), own); // noise alone
+}
+
+TEST_F(Temporal, OnlyNoiseFlickersBeforeAStillCamera) {
+    const auto cells = measureTemporal(study({"still"}));
+    EXPECT_EQ(value(cells, "none", "still"), 0);
+    EXPECT_GT(value(cells, "alchemy", "still"), 1e-3);
+    EXPECT_NE(cells.back().measure, worstFlicker); // nothing moves
+}
+
+TEST_F(Temporal, WritesTheCellsPicturesAndTheAnimation) {
+    std::vector<double> shares;
+    const auto cells = measureTemporal(
+        study({"turn", "cut"}), [&](double share, const std::string&) { shares.push_back(share); });
+    ASSERT_EQ(cells.size(), 4 * 7 + 4 * 5 + 1); // a cut has no second differences
+    for (const StabilityCell& cell : cells) {
+        EXPECT_TRUE(std::isfinite(cell.value)) << cell.measure;
+        EXPECT_TRUE(cell.picture.empty() || fs::exists(folder_ / cell.picture));
+    }
+    const Image8 strip = readImage8(folder_ / "pictures/turn-alchemy.png");
+    EXPECT_EQ(strip.width, 3 * 64);
+    EXPECT_EQ(cells.back().measure, worstFlicker);
+    EXPECT_EQ(cells.back().test, "turn"); // a cut is no path
+    EXPECT_EQ(cells.back().picture, "pictures/turn-" + cells.back().configuration + ".gif");
+    EXPECT_TRUE(fs::exists(folder_ / cells.back().picture));
+    EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+    EXPECT_EQ(shares.size(), 8);
+}
+
+TEST_F(Temporal, BadInputIsAnError) {
+    EXPECT_THROW(measureTemporal(study({"dance"})), Error);
+    TemporalStudy tooShort = study({"turn"});
+    tooShort.effort.frames = 2;
+    EXPECT_THROW(measureTemporal(tooShort), Error);
+}
+
+} // namespace
+} // namespace obscura

@@ -1,0 +1,49 @@
+#include "bench/sweep/figures.h"
+#include "tests/bench/sweep/sample_sweep.h"
+#include "tests/folder.h"
+#include "tests/report/xml.h"
+
+#include "base/files.h"
+#include <gmock/gmock.h>
+
+namespace obscura {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
+    const test::Folder folder;
+    Sweep sweep = test::smallSweep();
+    for (SweepRow& row : sweep.rows) {
+        row.scene = "../a <b> & \"c\" 'd'_e";
+        if (row.technique == "hbao")
+            row.configuration = row.technique = "it's {x}_y ^ <z> & \"w\"";
+    }
+    const std::vector<Figure> figures = sweepFigures(sweep);
+    ASSERT_EQ(figures.size(), 2u); // scatter, growth
+    writeFigures(folder.path(), figures);
+    for (const Figure& figure : figures) {
+        const std::string svg = readFile(folder / (figure.name + ".svg"));
+        EXPECT_EQ(test::faultOfXml(svg), "") << figure.name;
+        EXPECT_THAT(readFile(folder / (figure.name + ".pdf")), StartsWith("%PDF"));
+        EXPECT_THAT(readFile(folder / (figure.name + ".gnuplot")), HasSubstr(figure.script));
+    }
+    EXPECT_THAT(readFile(folder / (figures[0].name + ".svg")),
+                HasSubstr("it's {x}_y ^ &lt;z> &amp; \"w\""));
+}
+
+TEST(Figures, AreNotDrawnOfNothing) {
+    EXPECT_THAT(sweepFigures({}), IsEmpty());
+    Sweep sweep = test::smallSweep();
+    sweep.growth.clear();
+    for (SweepRow& row : sweep.rows) {
+        row.technique = "hbao";
+        row.matched.rmse = std::nan("");
+    }
+    EXPECT_THAT(sweepFigures(sweep), IsEmpty());
+}
+
+} // namespace
+} // namespace obscura

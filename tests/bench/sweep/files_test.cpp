@@ -1,0 +1,191 @@
+#include "bench/sweep/files.h"
+#include "tests/bench/sweep/sample_sweep.h"
+#include "tests/error_of.h"
+#include "tests/folder.h"
+
+#include "base/csv.h"
+#include "base/files.h"
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <regex>
+
+namespace obscura {
+namespace {
+
+using testing::HasSubstr;
+
+class SweepFiles : public testing::Test {
+  protected:
+    // What writing, changing a text in a file, and reading complains of, without the folder.
+    std::string errorAfter(const std::string& file, const std::string& from,
+                           const std::string& to) {
+        writeSweep(folder_ / "s", test::smallSweep());
+        std::string text = readFile(folder_ / "s" / file);
+        const std::size_t at = text.find(from);
+        EXPECT_NE(at, text.npos);
+        writeFile(folder_ / "s" / file, text.replace(at, from.size(), to));
+        return withoutFolder(test::errorOf([&] { readSweep(folder_ / "s"); }));
+    }
+
+    std::string withoutFolder(std::string text) {
+        const std::string path = folder_.path().string() + "/";
+        for (std::size_t at; (at = text.find(path)) != text.npos;)
+            text.erase(at, path.size());
+        return text;
+    }
+
+    test::Folder folder_;
+};
+
+TEST_F(SweepFiles, ReadBackExactly) {
+    Sweep sweep = test::smallSweep();
+    SweepRow& row = sweep.rows[0];
+    row.name = "a,b \"c\"\n<d> & 'é'";
+    row.total = {0.1 + 0.2, 5e-324, 1.7976931348623157e308};
+    row.raw = {std::nan(""), -0.0, HUGE_VAL, -1.0 / 3};
+    row.frames = -7;
+    row.thumbnail = "";
+    sweep.growth[0].axis = "\"";
+    sweep.machine.clocks = "1 GHz\n\"turbo\"";
+    writeSweep(folder_ / "s", sweep);
+    const Sweep read = readSweep(folder_ / "s");
+    EXPECT_EQ(sweepCsv(read.rows), sweepCsv(sweep.rows));
+    EXPECT_EQ(growthCsv(read.growth), growthCsv(sweep.growth));
+    EXPECT_EQ(read.machine.clocks, sweep.machine.clocks);
+    EXPECT_EQ(read.machine.study, sweep.machine.study);
+    const SweepRow& same = read.rows[0];
+    EXPECT_EQ(same.name, row.name);
+    EXPECT_EQ(same.total.median, 0.1 + 0.2);
+    EXPECT_EQ(same.total.low, 5e-324);
+    EXPECT_EQ(same.total.high, 1.7976931348623157e308);
+    EXPECT_TRUE(std::isnan(same.raw.rmse));
+    EXPECT_TRUE(std::signbit(same.raw.bias));
+    EXPECT_EQ(same.raw.ssim, HUGE_VAL);
+    EXPECT_EQ(same.raw.flip, -1.0 / 3);
+    EXPECT_EQ(same.frames, -7);
+    EXPECT_EQ(same.litMatched.flip, row.litMatched.flip);
+    EXPECT_EQ(same.work, row.work);
+}
+
+TEST_F(SweepFiles, HaveAColumnForEachFieldAndAnEmptyCellForNaN) {
+    SweepRow row;
+    row.configuration = "hbao";
+    row.raw.rmse = std::nan("");
+    row.total.high = 1.5;
+    const auto records = splitCsv(sweepCsv({row}));
+    ASSERT_EQ(records.size(), 2u);
+    const auto& names = records[0].cells;
+    ASSERT_EQ(names.size(), records[1].cells.size());
+    const auto cell = [&](const std::string& name) {
+        const auto at = std::find(names.begin(), names.end(), name);
+        EXPECT_NE(at, names.end()) << name;
+        return at == names.end() ? ""
+                                 : records[1].cells[static_cast<std::size_t>(at - names.begin())];
+    };
+    EXPECT_EQ(names.size(), 10u + 13 + 6 * 4 + 1);
+    EXPECT_EQ(cell("configuration"), "hbao");
+    EXPECT_EQ(cell("full_raw_rmse"), "");
+    EXPECT_EQ(cell("lit_matched_flip"), "0");
+    EXPECT_EQ(cell("total_95th_percentile_ms"), "1.5");
+    EXPECT_EQ(cell("prepare_median_ms"), "0");
+}
+
+TEST_F(SweepFiles, NameThePlaceOfAFault) {
+    EXPECT_EQ(errorAfter("sweep.csv", ",640,", ",6.40,"),
+              "s/sweep.csv:2:9: width: expected a whole number, found \"6.40\"");
+    EXPECT_EQ(errorAfter("sweep.csv", ",0.5,", ",half,"),
+              "s/sweep.csv:2:8: radius: expected a number, found \"half\"");
+    EXPECT_EQ(errorAfter("growth.csv", "axis", "axes"),
+              "s/growth.csv:1: axes: unknown column; did you mean \"axis\"?");
+    EXPECT_THAT(errorAfter("sweep.csv", "atrium,", ""),
+                testing::StartsWith("s/sweep.csv:2: expected 48 columns, found 47"));
+    EXPECT_THAT(errorAfter("sweep.json", "\"vendor\"", "\"seller\""),
+                HasSubstr("s/sweep.json: vendor: expected a text of this name, found none"));
+    EXPECT_THAT(errorAfter("sweep.json", ",", ";"), HasSubstr("line 2, column"));
+}
+
+TEST_F(SweepFiles, RefuseALineThatWasCutOff) {
+    writeSweep(folder_ / "s", test::smallSweep());
+    std::string text = readFile(folder_ / "s/sweep.csv");
+    text.pop_back();
+    writeFile(folder_ / "s/sweep.csv", text);
+    EXPECT_THAT(test::errorOf([&] { readSweep(folder_ / "s"); }), HasSubstr("it was cut off"));
+}
+
+// The small sweep in two parts, with a thumbnail of the same name in each.
+class SweepParts : public SweepFiles {
+  protected:
+    SweepParts() {
+        const Sweep all = test::smallSweep();
+        for (std::size_t part = 0; part < 2; ++part) {
+            Sweep& sweep = part ? second_ : first_;
+            sweep.machine = all.machine;
+            for (std::size_t i = part; i < all.rows.size(); i += 2)
+                sweep.rows.push_back(all.rows[i]);
+            sweep.rows[0].thumbnail = "thumbnails/0.png";
+            writeFile(folder_ / (part ? "b" : "a") / "thumbnails/0.png", part ? "two" : "one");
+        }
+        first_.growth = all.growth;
+    }
+
+    Sweep merge() {
+        writeSweep(folder_ / "a", first_);
+        writeSweep(folder_ / "b", second_);
+        return mergeSweeps({folder_ / "a", folder_ / "b"}, folder_ / "all");
+    }
+    std::string mergeError() {
+        return withoutFolder(test::errorOf([&] { merge(); }));
+    }
+
+    Sweep first_, second_;
+};
+
+TEST_F(SweepParts, BecomeOneWithTheirThumbnails) {
+    second_.machine.date = "tomorrow";
+    const Sweep all = merge();
+    EXPECT_EQ(all.rows.size(), test::smallSweep().rows.size());
+    EXPECT_EQ(all.growth.size(), first_.growth.size());
+    EXPECT_EQ(all.machine.date, first_.machine.date + ", tomorrow");
+    EXPECT_EQ(sweepCsv(readSweep(folder_ / "all").rows), sweepCsv(all.rows));
+    EXPECT_EQ(readFile(folder_ / "all" / all.rows[0].thumbnail), "one");
+    EXPECT_EQ(readFile(folder_ / "all" / all.rows[first_.rows.size()].thumbnail), "two");
+}
+
+TEST_F(SweepParts, SayHowMuchIsMissing) {
+    const auto rows = static_cast<int>(first_.rows.size() + second_.rows.size());
+    first_.machine.rows = second_.machine.rows = rows;
+    EXPECT_EQ(incompleteness(merge()), "");
+    EXPECT_EQ(incompleteness(readSweep(folder_ / "a")),
+              fmt::format("{} of the study's {} rows; the others are in other parts, or were not "
+                          "measured yet",
+                          first_.rows.size(), rows));
+    EXPECT_THAT(mergeError(), HasSubstr("all/sweep.json: expected a folder without a sweep"));
+}
+
+TEST_F(SweepParts, MayNotMeasureTheSameTwice) {
+    second_.rows[1] = first_.rows[0];
+    second_.rows[1].thumbnail = "";
+    EXPECT_EQ(mergeError(),
+              "b/sweep.csv: \"hbao samples=2 blur=1\" on view \"view 1\" of \"atrium\" at "
+              "640 x 360, R 0.5 was measured already in a/sweep.csv");
+    second_.rows.pop_back();
+    second_.rows.resize(1);
+    second_.growth = {first_.growth[0]};
+    EXPECT_THAT(mergeError(), HasSubstr("was measured already in a/growth.csv"));
+}
+
+TEST_F(SweepParts, MustBeOfOneMachineAndStudy) {
+    second_.machine.renderer = "a GPU";
+    EXPECT_THAT(mergeError(), testing::StartsWith("b/sweep.json: renderer: expected \"llvmpipe"));
+    second_.machine.renderer = first_.machine.renderer;
+    first_.machine.method = "glFinish: a load takes 28.3 ms";
+    second_.machine.method = "time stamps: a load takes 28.4 ms";
+    EXPECT_THAT(mergeError(), HasSubstr("b/sweep.json: method: expected \"glFinish"));
+    second_.machine.method = "glFinish: a load takes 28.4 ms";
+    second_.machine.study = "another";
+    EXPECT_THAT(mergeError(), HasSubstr("b/sweep.json: study: expected \"aaaa"));
+}
+
+} // namespace
+} // namespace obscura

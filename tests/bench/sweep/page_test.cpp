@@ -1,0 +1,100 @@
+#include "bench/sweep/page.h"
+#include "report/html.h"
+#include "tests/bench/sweep/sample_sweep.h"
+#include "tests/error_of.h"
+#include "tests/folder.h"
+#include "tests/report/xml.h"
+
+#include "base/files.h"
+#include <gmock/gmock.h>
+
+namespace obscura {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+std::size_t count(const std::string& text, const std::string& part) {
+    std::size_t times = 0;
+    for (std::size_t at = 0; (at = text.find(part, at)) != text.npos; at += part.size())
+        ++times;
+    return times;
+}
+
+TEST(SweepPage, IsWellFormedAndNeedsNothingFromElsewhere) {
+    const std::string page = sweepPage(test::smallSweep(), ".");
+    EXPECT_EQ(test::faultOfXml(page), "");
+    EXPECT_EQ(test::foreignReference(page), "");
+    EXPECT_THAT(sweepPage({}, "."), HasSubstr("</html>"));
+}
+
+TEST(SweepPage, WritesHostileNamesAsTheyAre) {
+    Sweep sweep = test::smallSweep();
+    const std::string name = "<script>alert(1)</script> & \"a,b\" 'c'";
+    for (SweepRow& row : sweep.rows)
+        row.scene = row.view = row.settings = name;
+    for (std::size_t i = 0; i < 4; ++i)
+        sweep.rows[i].configuration = sweep.rows[i].technique = name;
+    sweep.growth[0].axis = sweep.machine.renderer = sweep.machine.clocks = name;
+    const std::string page = sweepPage(sweep, ".");
+    EXPECT_EQ(test::faultOfXml(page), "");
+    EXPECT_EQ(count(page, "<script"), 1u);
+    EXPECT_GT(count(page, escaped(name)), 20u);
+}
+
+TEST(SweepPage, HasEveryConfigurationAsAMarkOfEachErrorAndInDetail) {
+    const Sweep sweep = test::smallSweep();
+    const std::string page = sweepPage(sweep, ".");
+    for (const SweepRow& row : sweep.rows)
+        EXPECT_EQ(count(page, "aria-label=\"" + row.configuration + ": "), 11u);
+    EXPECT_EQ(count(page, "<article id=\"p"), sweep.rows.size() / 2); // of two views
+}
+
+TEST(SweepPage, SaysWhatIsMissing) {
+    Sweep sweep = test::smallSweep();
+    sweep.rows.pop_back();
+    sweep.rows[0].matched.rmse = std::nan("");
+    const std::string page = sweepPage(sweep, ".");
+    EXPECT_THAT(page, HasSubstr("on fewer views: " + sweep.rows.back().configuration + ".</p>"));
+    EXPECT_THAT(page, HasSubstr("1 without this error are left out."));
+}
+
+TEST(SweepPage, WarnsOfASoftwareRenderer) {
+    Sweep sweep = test::smallSweep();
+    EXPECT_THAT(sweepPage(sweep, "."), HasSubstr("This renderer is software."));
+    sweep.machine.renderer = "NVIDIA H200";
+    EXPECT_THAT(sweepPage(sweep, "."), Not(HasSubstr("This renderer is software.")));
+}
+
+TEST(SweepPage, HoldsEachThumbnailOnce) {
+    const test::Folder folder;
+    Sweep sweep = test::smallSweep();
+    sweep.rows[0].thumbnail = "a.png";
+    writeFile(folder / "a.png", "not quite a PNG");
+    EXPECT_EQ(count(sweepPage(sweep, folder.path()), dataAddress("image/png", "not quite a PNG")),
+              1u);
+    sweep.rows[0].thumbnail = "missing.png";
+    EXPECT_THAT(test::errorOf([&] { sweepPage(sweep, folder.path()); }), HasSubstr("missing.png"));
+}
+
+TEST(SweepPage, StaysBelow25MegabytesWhateverThumbnailsWeigh) {
+    const test::Folder folder;
+    Sweep sweep = test::smallSweep();
+    writeFile(folder / "big.png", std::string(1'000'000, 'x'));
+    for (int resolution = 0; resolution < 3; ++resolution)
+        for (SweepRow row : test::smallSweep().rows) {
+            row.width += resolution;
+            row.thumbnail = "big.png";
+            if (row.technique != "none") // which is on every front
+                row.matched = row.raw = row.depthMatched = row.depthRaw =
+                    row.litMatched = {9, 9, -9, 9};
+            sweep.rows.push_back(row);
+        }
+    const std::string page = sweepPage(sweep, folder.path());
+    EXPECT_LT(page.size(), 25e6);
+    EXPECT_THAT(page, HasSubstr("configurations off every front are only in the sweep's folder"));
+    EXPECT_GT(count(page, dataAddress("image/png", std::string(1'000'000, 'x')).substr(0, 40)), 9u);
+}
+
+} // namespace
+} // namespace obscura

@@ -1,0 +1,170 @@
+#include "protocols/reader/manifest.h"
+
+#include "base/files.h"
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+
+Manifest sample() {
+    Manifest manifest;
+    manifest.study = "small";
+    manifest.title = "A “small” study";
+    manifest.protocolSha256 = std::string(64, 'a');
+    manifest.commit = "abc";
+    manifest.width = 64;
+    manifest.height = 36;
+    PairRecord pair;
+    pair.condition = "one";
+    pair.level = "high";
+    pair.view = "box";
+    pair.radius = 0.2;
+    pair.a.name = "none";
+    pair.a.recipe.view.builtin = "sculpture";
+    pair.a.recipe.view.camera.position = {0.1, 1.0 / 3, 3};
+    pair.a.recipe.level.sky = Sky{};
+    pair.a.recipe.level.sun = Sun{30, 50, {1, 2, 3}};
+    pair.a.recipe.technique = "none";
+    pair.a.image = {"a.png", std::string(64, '1')};
+    pair.b = pair.a;
+    pair.b.recipe.level.sky.reset();
+    pair.b.recipe.level.sun.reset();
+    pair.b.recipe.level.ambient = Vec3{1, 1, 1};
+    pair.b.recipe.settings = {{"radius", 0.2}, {"samples", 24}};
+    pair.b.meanOcclusion = 0.125;
+    pair.b.layers["ao"] = {"b_ao.png", std::string(64, '2')};
+    manifest.pairs.push_back(pair);
+    manifest.contactSheets = {{"sheet-1.png", std::string(64, '3')},
+                              {"sheet-2.png", std::string(64, '4')}};
+    return manifest;
+}
+
+fs::path file() { return fs::path(testing::TempDir()) / "obscura_manifest_test.json"; }
+
+TEST(ManifestTest, WhatIsWrittenIsRead) {
+    writeManifest(file(), sample());
+    const std::string first = readFile(file());
+    const Manifest manifest = readManifest(file());
+    writeManifest(file(), manifest);
+    EXPECT_EQ(readFile(file()), first); // every field came back, to the last bit
+    EXPECT_EQ(manifest.title, "A “small” study");
+    EXPECT_EQ(manifest.pairs.at(0).a.recipe.view.camera.position[1], 1.0 / 3);
+    EXPECT_EQ(manifest.pairs.at(0).b.layers.at("ao").path, "b_ao.png");
+}
+
+// Whatever decides pixels must decide the hash, or a stale image would be kept.
+TEST(ManifestTest, EveryPartOfARecipeChangesItsHash) {
+    const Recipe base = sample().pairs[0].a.recipe;
+    const std::vector<std::pair<const char*, void (*)(Recipe&)>> changes = {
+        {"width", [](Recipe& r) { r.width = 1; }},
+        {"height", [](Recipe& r) { r.height = 1; }},
+        {"antialiasing", [](Recipe& r) { r.antialiasing = 9; }},
+        {"seed", [](Recipe& r) { r.seed = 9; }},
+        {"scene", [](Recipe& r) { r.sceneSha256 = "x"; }},
+        {"camera", [](Recipe& r) { r.view.camera.fovDegrees += 1e-9; }},
+        {"near", [](Recipe& r) { r.view.camera.near = 1; }},
+        {"exposure", [](Recipe& r) { r.view.exposure = 1; }},
+        {"sky", [](Recipe& r) { r.level.sky->ground[2] = 0; }},
+        {"sun", [](Recipe& r) { r.level.sun->azimuthDegrees = 0; }},
+        {"curve", [](Recipe& r) { r.level.curve = Curve::clamp; }},
+        {"white", [](Recipe& r) { r.level.white = 9; }},
+        {"occludeDirect", [](Recipe& r) { r.level.occludeDirect = true; }},
+        {"environment", [](Recipe& r) { r.environmentSha256 = "x"; }},
+        {"technique", [](Recipe& r) { r.technique = "x"; }},
+        {"settings", [](Recipe& r) { r.settings["radius"] = 1; }},
+        {"shaders", [](Recipe& r) { r.shaderSha256 = "x"; }},
+        {"code", [](Recipe& r) { r.codeSha256 = "x"; }},
+        {"program", [](Recipe& r) { r.programVersion = "x"; }},
+        {"driver", [](Recipe& r) { r.glVersion = "x"; }},
+    };
+    for (const auto& [name, change] : changes) {
+        Recipe changed = base;
+        change(changed);
+        EXPECT_NE(changed.sha256(), base.sha256()) << name;
+        EXPECT_EQ(differences(base, changed).size(), 1u) << name;
+    }
+    EXPECT_EQ(Recipe(base).sha256(), base.sha256());
+}
+
+TEST(ManifestTest, NumbersThatDoNotFitAreRefused) {
+    writeManifest(file(), sample());
+    const std::string well = readFile(file());
+    for (const char* number : {"1e300", "1.5", "4294967296", "-2147483649", "true", "9e601"}) {
+        std::string text = well;
+        const std::string_view width = "\"width\": 64";
+        text.replace(text.rfind(width), width.size(), fmt::format("\"width\": {}", number));
+        writeFile(file(), text);
+        EXPECT_THROW(readManifest(file()), Error) << number;
+    }
+}
+
+TEST(ManifestTest, AMissingFieldIsNamed) {
+    writeManifest(file(), sample());
+    std::string text = readFile(file());
+    const std::size_t at = text.find("\"meanOcclusion\"");
+    writeFile(file(), text.replace(at, 15, "\"meanOclusion\""));
+    try {
+        readManifest(file());
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(),
+                    testing::HasSubstr("pairs[1].a.meanOcclusion: expected this key"));
+    }
+}
+
+TEST(ManifestTest, DifferencesAreSpelt) {
+    const Recipe recorded = sample().pairs[0].b.recipe;
+    Recipe now = recorded;
+    now.settings["radius"] = 0.3;
+    now.settings.erase("samples");
+    now.view.camera.target[2] = 1;
+    now.view.camera.fovDegrees += 1e-9;
+    EXPECT_THAT(differences(recorded, now),
+                testing::ElementsAre("settings.radius: 0.2, now 0.3",
+                                     "settings.samples: 24, now none",
+                                     "view.camera.fovDegrees: 50.0, now 50.000000001",
+                                     "view.camera.target.2: 0, now 1"));
+    EXPECT_THAT(differences(now, now), testing::IsEmpty());
+}
+
+TEST(ManifestTest, AnEarlierVersionIsRead) {
+    writeManifest(file(), sample());
+    std::string text = readFile(file());
+    text.replace(text.find("\"schemaVersion\": 2"), 18, "\"schemaVersion\": 1");
+    for (std::size_t at; (at = text.find("\"codeSha256\"")) != text.npos;)
+        text.erase(at, text.find('\n', at) - at);
+    writeFile(file(), text);
+    const Manifest manifest = readManifest(file());
+    EXPECT_EQ(manifest.schemaVersion, 1);
+    EXPECT_EQ(manifest.pairs[0].a.recipe.codeSha256, "");
+    EXPECT_EQ(manifest.pairs[0].a.recipe.technique, "none");
+}
+
+TEST(ManifestTest, AListMustBeOne) {
+    writeManifest(file(), sample());
+    const std::string text = readFile(file());
+    for (const char* wrong : {"{}", "3", "null", "\"pairs\""}) {
+        const std::size_t at = text.find("\"pairs\": ") + 9;
+        writeFile(file(), text.substr(0, at) + wrong + "}");
+        EXPECT_THROW(readManifest(file()), Error) << wrong;
+    }
+}
+
+TEST(ManifestTest, AnotherVersionIsRefused) {
+    writeFile(file(), R"({"schemaVersion": 99})");
+    try {
+        readManifest(file());
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("schemaVersion: expected 1 ... 2, found 99"));
+    }
+}
+
+} // namespace
+} // namespace obscura

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "renderer/reference/traced.h"
+#include "renderer/scene/proxies.h"
+#include "renderer/scene/quads.h"
+#include "renderer/techniques/occlusion_passes.h"
+#include "renderer/techniques/settings.h"
+
+#include "gl/context.h"
+#include "image/image.h"
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <optional>
+
+namespace obscura {
+
+// One headless context for all tests of a program; a test that asks for nothing special shares it.
+class GlTest : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        if (!context)
+            context = std::make_unique<gl::Context>();
+    }
+    void TearDown() override { EXPECT_NO_THROW(gl::throwMessages()); }
+
+    inline static std::unique_ptr<gl::Context> context;
+};
+
+// Constant white light from everywhere, for techniques that read light.
+inline Level whiteLight() {
+    Level level;
+    level.ambient = Vec3{1, 1, 1};
+    return level;
+}
+
+// What a technique's passes leave: visibility, and the light to add where it has any. Top row
+// first.
+inline Image occlusionOf(const Scene& scene, const Camera& camera, const Settings& settings,
+                         int width, int height, std::uint64_t seed = 1,
+                         Normals kind = Normals::smooth, const Level& level = whiteLight(),
+                         std::vector<glm::vec4> proxies = {}) {
+    const GpuScene gpuScene(scene);
+    const int guard = guardPixels(settings, height);
+    const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
+    const gl::UniformBuffer block = frameBuffer(frame);
+    bindFrame(block);
+    if (settings.technique().reads & rays)
+        return tracedVisibility(RayTracer(scene), surfacesOf(gpuScene, GBufferPass(), frame, kind),
+                                settings, seed);
+    const int fullWidth = width + 2 * guard, fullHeight = height + 2 * guard;
+    const Lighting lighting(level, gpuScene, std::filesystem::path());
+    GBufferContent content;
+    content.shadingNormal = lighting.readsNormals();
+    if (settings.technique().reads & normals)
+        content.occlusionNormal = kind;
+    const GBuffer gbuffer(fullWidth, fullHeight, content);
+    GBufferPass().draw(gpuScene, frame, gbuffer);
+    const LightBuffers light(fullWidth, fullHeight, lighting.hasDirect());
+    lighting.draw(gbuffer, light);
+    std::optional<ProxySpheres> fitted;
+    if (settings.technique().reads & spheres)
+        fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
+    const OcclusionPasses passes(settings, fullWidth, fullHeight);
+    const gl::Texture& texture =
+        passes.visibility({gbuffer, &light, &lighting, fitted ? &*fitted : nullptr, &frame});
+    const int channels = passes.sendsLight() ? 4 : 1;
+    Image image{width, height, channels, {}};
+    if (settings.technique().passes.empty()) {
+        image.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                            1.0f);
+        return image;
+    }
+    const std::vector<float> values = gl::readFloats(
+        texture, fullWidth, fullHeight, channels == 4 ? gl::Format::rgba32f : gl::Format::r32f);
+    for (int y = guard + height - 1; y >= guard; --y) {
+        const auto row = values.begin() + (y * fullWidth + guard) * channels;
+        image.pixels.insert(image.pixels.end(), row, row + width * channels);
+    }
+    return image;
+}
+
+// Visibility alone: 1 channel.
+inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settings& settings,
+                          int width, int height, std::uint64_t seed = 1,
+                          Normals kind = Normals::smooth) {
+    Image image = occlusionOf(scene, camera, settings, width, height, seed, kind);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    for (std::size_t i = 0; i < image.pixels.size() / channels; ++i)
+        image.pixels[i] = image.pixels[i * channels];
+    image.pixels.resize(image.pixels.size() / channels);
+    image.channels = 1;
+    return image;
+}
+
+} // namespace obscura
