@@ -18,10 +18,10 @@ fault sun-swapped renderer/frame/light.cpp \
     renderer_test 'SunTest.*'
 fault srgb-toe image/image.cpp \
     's|12\.92f \* linear|12.2f * linear|' \
-    renderer_test 'Srgb.*'
+    image_test 'Srgb.*'
 fault flip-exponent image/flip.cpp \
     's|0\.7F\)|0.75F)|' \
-    renderer_test 'Flip.*'
+    image_test 'Flip.*'
 fault radius-lost renderer/techniques/settings.cpp \
     's|settings\.set\("radius", radius, setting\.place\)|settings.set("radius", 100 * radius, setting.place)|' \
     renderer_test 'SettingsTest.*'
@@ -38,10 +38,10 @@ fault index-past-the-end renderer/scene/gltf_check.cpp \
 # Of files.
 fault file-not-flushed base/files.cpp \
     's|= ::fsync\(descriptor\)|= 0|' \
-    protocols_test 'Files.*'
+    base_test 'Files.*'
 fault foreign-files-removed base/files.cpp \
     's#writer && fs::is_regular_file\(entry\.symlink_status\(\)\) && isGone\(\*writer\)#fs::is_regular_file(entry.symlink_status()) \&\& (!writer || isGone(*writer))#' \
-    protocols_test 'Files.*'
+    base_test 'Files.*'
 fault row-not-flushed experiment/append_file.cpp \
     's|writeAll\(descriptor_, lines\) && ::fsync\(descriptor_\) == 0|writeAll(descriptor_, lines)|' \
     experiment_test 'AppendFileTest.*'
@@ -51,6 +51,13 @@ fault short-rows base/csv.cpp \
 fault torn-rows base/csv.cpp \
     's#record\.ended = take\("\\n"\) .*#record.ended = take("\\n") || take("\\r\\n") || atEnd();#' \
     protocols_test 'Responses.*:Csv.*'
+
+fault surface-unchecked image/page.cpp \
+    's|std::max\(width, height\) > mostPixels|false|' \
+    image_test 'Page.*'
+fault pages-forgotten image/page.cpp \
+    's|tallestPage = 16000|tallestPage = 160000|' \
+    matching_test 'MatchSheet.*'
 
 # Of sessions.
 fault missed-threshold experiment/trial.cpp \
@@ -88,7 +95,7 @@ fault answer-swapped experiment/row.cpp \
     experiment_test 'SimulationTest.*'
 fault shuffle-short base/random.h \
     's|below\(static_cast<std::uint32_t>\(i\)\)|below(static_cast<std::uint32_t>(i - 1))|' \
-    protocols_test 'Random.*'
+    base_test 'Random.*'
 
 # Of statistics and choices.
 fault votes-swapped analysis/votes.cpp \

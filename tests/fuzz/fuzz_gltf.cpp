@@ -1,10 +1,13 @@
-// libFuzzer: any bytes as a glTF file. An Error is right, and so is a scene; all else is a finding.
+// libFuzzer: any bytes as a glTF file, binary where they begin as one. An Error is right, and so is
+// a scene; all else is a finding.
 #include "renderer/scene/scene.h"
 
 #include "base/error.h"
 #include "base/files.h"
 #include <unistd.h>
 
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <string>
 
@@ -13,11 +16,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const std::filesystem::path folder = std::filesystem::temp_directory_path() /
                                                 ("obscura-fuzz-gltf-" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
-    std::FILE* file = std::fopen((folder / "t.gltf").c_str(), "wb");
+    const bool binary = size >= 4 && std::memcmp(data, "glTF", 4) == 0;
+    const std::filesystem::path path = folder / (binary ? "t.glb" : "t.gltf");
+    std::FILE* file = std::fopen(path.c_str(), "wb");
     std::fwrite(data, 1, size, file);
     std::fclose(file);
     try {
-        loadScene(folder / "t.gltf");
+        loadScene(path);
     } catch (const Error&) {
     }
     return 0;

@@ -92,7 +92,8 @@ TEST(Ablation, HasTheOlderTechniqueBesideIt) {
         rows.back().technique = "vao";
         rows.back().configuration = fmt::format("vao blur={}", blur);
     }
-    const auto& column = ablationTables(groupsOf(rows))[0].columns[0];
+    const auto tables = ablationTables(groupsOf(rows));
+    const auto& column = tables[0].columns[0];
     EXPECT_EQ(column.vao[2], 7);
     EXPECT_TRUE(std::isnan(column.vao[3]));
 }

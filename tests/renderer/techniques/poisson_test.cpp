@@ -20,7 +20,8 @@ std::vector<glm::dvec2> committed(int size) {
 }
 
 TEST(PoissonSets, TheGeneratorGivesTheCommittedFile) {
-    EXPECT_EQ(poissonTable(poissonSeed), readFile(OBSCURA_SOURCE "/renderer/poisson_sets.h"));
+    EXPECT_EQ(poissonTable(poissonSeed),
+              readFile(OBSCURA_SOURCE "/renderer/techniques/poisson_sets.h"));
 }
 
 TEST(PoissonSets, AreSixtyTwoPointsOfTheUnitDisc) {
