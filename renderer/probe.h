@@ -55,7 +55,7 @@ class Probe {
     // The same without fetching the picture: what there is to time.
     const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes, int beyond = 0,
                            const PassObserver& issued = {}) const;
-    void drawGBuffer() const; // once more
+    void drawGBuffer() const; // draws the G-buffer again, to be timed
 
     int width() const { return width_; }
     int height() const { return height_; }

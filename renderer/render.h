@@ -15,9 +15,9 @@
 
 namespace obscura {
 
-// Hash of our own C++ that decides the pixels of an image (code_hash.cmake), for what other code
-// made may look otherwise. Shaders and built-in scenes are no part of it: those have hashes of
-// their own (shaderSha256(), contentSha256()), so that a changed one is rendered anew alone.
+// Hash of our own C++ that decides the pixels of an image (code_hash.cmake), because images made by
+// other code may look different. Shaders and built-in scenes are no part of it: those have hashes
+// of their own (shaderSha256(), contentSha256()), so that a changed one is rendered anew alone.
 std::string_view imageCode();
 
 // Where the files that a study names are.

@@ -13,11 +13,11 @@ class Composite {
     Composite(const View& view, const Level& level, int width, int height, bool linear);
 
     // The visibility buffer is `guard` pixels wider than the image on every side; with `sendsLight`
-    // its other channels are light to add (technique.h).
+    // its other channels are light to add (renderer/techniques/technique.h).
     void draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight = false,
               int guard = 0);
 
-    void restart(); // without frames
+    void restart(); // forgets all frames drawn so far
 
     // Red, green, blue (display-linear, 0 ... 1) and visibility; rows from the bottom.
     std::vector<float> mean() const { return mean(0); }
@@ -33,7 +33,7 @@ class Composite {
     int frames_ = 0;
 };
 
-// For recipes.
+// The assembled text of the shader, for recipes.
 gl::ShaderText compositeShader();
 
 } // namespace obscura

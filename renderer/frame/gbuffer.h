@@ -12,17 +12,17 @@
 
 namespace obscura {
 
-// Where a camera's pixels are. `bounds` decides the depth of empty pixels (beyond the scene);
-// `jitter` moves the image by a fraction of a pixel, -0.5 ... 0.5. A frame with `guard` is that
-// many pixels wider on every side, and its middle is the frame without.
+// The block that tells shaders where a camera's pixels are. `bounds` decides the depth of empty
+// pixels (beyond the scene); `jitter` moves the image by a fraction of a pixel, -0.5 ... 0.5. A
+// frame with `guard` is that many pixels wider on every side, and its middle is the frame without.
 Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
                 std::uint64_t seed, glm::vec2 jitter = {0, 0}, int guard = 0);
 
-// Metres before the camera at which it begins to see: the camera's own near plane, or else 5 cm,
-// and less in a scene that is less than 1 m across: a twentieth of its diagonal.
+// Metres from the camera to its near plane: what the camera says or, where it says nothing, 5 cm.
+// In a scene that is less than 1 m across it is a twentieth of the scene's diagonal.
 double nearPlane(const Camera& camera, const Bounds& bounds);
 
-// A scene where the GPU can read it.
+// A scene in the GPU's memory.
 class GpuScene {
   public:
     explicit GpuScene(const Scene& scene);
@@ -31,7 +31,8 @@ class GpuScene {
     // Which materials a draw() takes, and whether it skips back faces that cannot be seen (those of
     // materials that are not double-sided).
     enum class Take { all, opaque, masked };
-    // Draws with a program that reads shaders/material.glsl; opaque depth alone needs no material.
+    // The program must read shaders/material.glsl, unless it draws nothing but the depth of opaque
+    // materials.
     void draw(const gl::Program& program, Take take, bool cullBackFaces, gl::State state) const;
 
   private:
@@ -78,8 +79,8 @@ class GBuffer {
 void bindFrame(const gl::UniformBuffer& frame);
 gl::UniformBuffer frameBuffer(const Frame& frame);
 
-// Depth alone, with holes where masked materials have them: what the G-buffer's pass shades once
-// per pixel, and what the sun sees.
+// Draws depth alone, with holes where masked materials have them. It goes before the G-buffer's
+// pass, which then shades each pixel once, and it draws the sun's shadow map.
 class DepthPass {
   public:
     DepthPass();

@@ -22,7 +22,7 @@ Irradiance irradianceOf(const Image& panorama);
 
 glm::vec3 directionOf(const Sun& sun); // towards the sun, world space
 
-// What the sun sees. The map covers the whole scene, so one serves every camera.
+// The depth that the sun sees. The map covers the whole scene, so one serves every camera.
 class ShadowMap {
   public:
     ShadowMap(const GpuScene& scene, const Sun& sun, int size);
@@ -67,7 +67,7 @@ class Lighting {
     explicit Lighting(const Level& level, const GpuScene& scene, const Image& panorama);
 
     Level level_;
-    gl::Texture panorama_; // without constant ambient light
+    gl::Texture panorama_; // empty where ambient light is constant
     gl::UniformBuffer environment_;
     std::optional<ShadowMap> shadow_;
     gl::Program program_;

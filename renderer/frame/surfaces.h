@@ -24,7 +24,7 @@ struct Surfaces {
     glm::vec3 position(float x, float y, float viewDepth) const;
 };
 
-// Draws the frame (it is bound) and reads it back.
+// Draws the frame, which must be bound, and reads it back.
 Surfaces surfacesOf(const GpuScene& scene, const GBufferPass& pass, const Frame& frame,
                     Normals kind);
 

@@ -7,14 +7,15 @@
 namespace obscura {
 
 // The integrals of renderer/reference/reference.h traced against the depth buffer alone, by brute
-// force: what is hidden or off the screen does not exist. The best that any screen-space method of
-// one depth layer can know; the difference to RayTracer is what none can.
+// force: what is hidden or off the screen does not exist. This is the best that any screen-space
+// method of one depth layer can know; the difference between it and RayTracer is what none can
+// know.
 //
-// A ray is walked pixel by pixel, between pixels the surface is taken as plane (inverse depth is
+// A ray is walked pixel by pixel; between pixels the surface is taken as plane (inverse depth is
 // interpolated, which is exact on planes). Without `thickness` everything behind the surface is
 // solid; with it, only that many metres along the view axis. What leaves the screen is open. A ray
-// shorter than a pixel on screen meets nothing. Pixels without a normal (0, 0, 0) block rays but
-// are not asked about.
+// shorter than a pixel on screen meets nothing. Pixels without a normal (0, 0, 0) block rays, but
+// no rays start from them.
 Reference depthReference(const Surfaces& surfaces, const TraceSettings& settings,
                          std::optional<double> thickness = {}, const TraceProgress& progress = {});
 

@@ -22,8 +22,9 @@ using EmbreeDevice = std::unique_ptr<std::remove_pointer_t<RTCDevice>, EmbreeRel
 using EmbreeScene = std::unique_ptr<std::remove_pointer_t<RTCScene>, EmbreeRelease>;
 using EmbreeGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, EmbreeRelease>;
 
-// Whether anything is met sets tfar to -infinity; the nearest thing met sets it to its distance.
-// `valid` has -1 for the lanes that count, 0 for others. Packets are taken for coherent.
+// findAny() sets a ray's tfar to -infinity where it meets anything; findNearest() sets it to the
+// distance of the nearest thing met. `valid` has -1 for the lanes that count, 0 for others. Embree
+// is told that the rays of a packet are coherent.
 #if OBSCURA_EMBREE >= 4
 inline void findAny(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, nullptr); }
 

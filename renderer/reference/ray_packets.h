@@ -49,7 +49,8 @@ class RayPackets {
         Lanes<int> valid;      // -1: to trace; 0: below the face, or not in use
         int cell;
     };
-    // Of point 0 ... cells() - 1 in an order in which successive packets are neighbours.
+    // Makes the packet of one point, 0 ... cells() - 1. The points' order makes neighbours of
+    // successive packets.
     void fill(const Group& group, int point, int scrambling, Packet& packet) const;
 
   private:

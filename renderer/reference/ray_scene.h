@@ -19,7 +19,7 @@ class RayScene {
     RayScene(RayScene&&) noexcept;
 
     RTCScene handle() const;
-    // What Embree has complained of since, as an Error.
+    // Throws an Error if Embree has complained of anything.
     void throwErrors() const;
 
   private:

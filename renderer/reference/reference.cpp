@@ -140,7 +140,7 @@ const std::vector<std::string>& integralNames() {
 }
 
 std::string rayTracerVersion() {
-    return fmt::format("Embree {}", RTC_VERSION_STRING); // ours has a hash (code.h)
+    return fmt::format("Embree {}", RTC_VERSION_STRING); // ours: referenceCode()
 }
 
 struct RayTracer::Device {

@@ -24,7 +24,8 @@ struct Reference {
                       // everything is blocked
 };
 
-// Changes when the same surfaces and settings give other numbers.
+// Names the version of Embree, since another may give other numbers for the same surfaces and
+// settings. Our own code has a hash (reference_cache.h).
 std::string rayTracerVersion();
 
 // Called now and then with the share done, 0 ... 1, from the calling thread.

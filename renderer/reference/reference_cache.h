@@ -11,7 +11,7 @@ namespace obscura {
 // Hash of our own C++ that decides a reference (code_hash.cmake). Techniques are no part of it.
 std::string_view referenceCode();
 
-// References on disk, for they take seconds to minutes and do not change.
+// References are kept on disk, because they take seconds to minutes and do not change.
 
 // $OBSCURA_CACHE, else $XDG_CACHE_HOME/obscura, else ~/.cache/obscura.
 std::filesystem::path defaultCache();
@@ -38,7 +38,8 @@ Reference cachedReference(const std::filesystem::path& cache, const std::string&
 void writeReference(const std::filesystem::path& path, const Reference& reference);
 Reference readReference(const std::filesystem::path& path);
 
-// The camera's points, rays traced from them: with the scene on the GPU and in the tracer.
+// Draws what the inputs' camera sees and traces rays from those points. `scene` and `tracer` hold
+// the same scene, for the GPU and for rays.
 Reference traceView(const RayTracer& tracer, const GpuScene& scene, const GBufferPass& pass,
                     const ReferenceInputs& inputs, const TraceProgress& progress = {});
 

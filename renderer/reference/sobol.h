@@ -12,7 +12,8 @@ namespace obscura {
 // spread.
 glm::vec2 owenSobol(std::uint32_t index, std::uint32_t seed);
 
-// Its parts, for those who make many points at once. Reversed: the first binary digit last.
+// The parts of owenSobol(), for those who make many points at once. Reversed bits have the first
+// binary digit last.
 constexpr std::uint32_t reversedBits(std::uint32_t bits) {
     bits = (bits << 16) | (bits >> 16);
     bits = ((bits & 0x00ff00ffu) << 8) | ((bits & 0xff00ff00u) >> 8);

@@ -23,9 +23,9 @@ struct TraceSettings {
     int rays = 256;      // per pixel; rounded up to a power of two, at least 2
     std::uint64_t seed = 1;
     int threads = 0; // 0: all cores. The result does not depend on it
-    // The rays of all pixels leave their normals in the same directions. Errors are then no noise
-    // but a pattern on the surfaces, which a moving camera leaves where it is; they may be alike in
-    // many pixels, so `error` says nothing about means.
+    // The rays of all pixels leave their normals in the same directions. Errors then form not noise
+    // but a pattern that stays on the surfaces when the camera moves. Many pixels may have the same
+    // error, so `error` says nothing about means.
     bool sameRays = false;
 };
 

@@ -5,16 +5,17 @@
 
 namespace obscura {
 
-// The technique ray_traced (rows/traced.h): what passes over a G-buffer are to other techniques.
+// The technique ray_traced (renderer/techniques/rows/traced.h): it has no passes over a G-buffer;
+// these functions give its visibility.
 
 TraceSettings traceSettings(const Settings& settings, std::uint64_t seed);
 
 // Visibility as the last pass of another technique would leave it, intensity and power applied
-// (technique.h). 1 channel.
+// (renderer/techniques/technique.h). 1 channel.
 Image tracedVisibility(const RayTracer& tracer, const Surfaces& surfaces, const Settings& settings,
                        std::uint64_t seed);
 
-// For the composite to read.
+// The visibility as a texture that the composite can read.
 gl::Texture visibilityTexture(const Image& visibility);
 
 } // namespace obscura

@@ -6,20 +6,21 @@
 
 namespace obscura {
 
-// Texture fetches that a technique makes for a pixel of the frame that it sees (a guard band's
-// included), as the passes that its settings enable declare them (technique.h), each by its
-// target's share of that frame: scale, layers, levels, `downscale`. It is the most, where no tap is
-// beyond the border and nothing is left out; empty pixels make few. How many spheres are splatted
-// on a pixel depends on the scene: one is counted.
+// Texture fetches that a technique makes for each pixel of the frame that it sees, guard band
+// included. They are what the enabled passes declare (technique.h), each pass weighted by the
+// pixels that its target has for each pixel of that frame (scale, layers, levels, `downscale`).
+// This is the most, reached where no tap lies beyond the border and nothing is skipped; empty
+// pixels need few. How many spheres are splatted on a pixel depends on the scene, so one is
+// counted.
 double fetchesPerPixel(const Settings& settings);
 
-// What the pixels of one level of a pass's target really make.
+// The fetches that pixels in one level of a pass's target really make.
 struct FetchCount {
     const Pass* pass;
     int level;
-    double share;      // its pixels for each pixel of the frame
-    double declared;   // the most of one pixel
-    double most, mean; // of one pixel; all of its splats together
+    double share;      // pixels of this level for each pixel of the frame
+    double declared;   // the most that one pixel may make
+    double most, mean; // that were counted for one pixel, all of its splats together
 };
 
 // Runs the technique, and each of its own passes once more with a counter in its shader. The frame

@@ -111,7 +111,7 @@ std::string declareInputs(const Settings& settings) {
     }
     if (technique.points)
         text += declarePoints(technique.points(settings));
-    // Every pass's, for a file's other functions must compile too.
+    // The results of all passes are declared, because the file's other functions must compile too.
     int unit = resultUnit;
     for (const Pass& pass : technique.passes)
         text += fmt::format("layout(binding = {}) uniform {} {}Result;\n", unit++,
@@ -254,7 +254,7 @@ int guardPixels(const Settings& settings, int height) {
 
 namespace {
 
-constexpr glm::vec4 nothing[] = {glm::vec4(0)}; // for a buffer must not be empty
+constexpr glm::vec4 nothing[] = {glm::vec4(0)}; // because a buffer must not be empty
 
 } // namespace
 

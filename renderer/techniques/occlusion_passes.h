@@ -14,23 +14,24 @@ namespace obscura {
 enum class Writes { value, fetches };
 
 // The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
-// technique's file, and a main that calls the pass's function. `level` 1 is the text for the levels
-// after the first. splat's vertex shader comes from splatShader().
+// technique's file, and a main that calls the pass's function. With `level` 1 it is the text for
+// every level after the first. The vertex shader of a splat pass comes from splatShader().
 gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0,
                           Writes writes = Writes::value);
 gl::ShaderText splatShader(const Settings& settings);
 gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 0,
                         Writes writes = Writes::value);
-// In order; those that settings switch off left out.
+// The passes that these settings switch on, in order.
 std::vector<const Pass*> enabledPasses(const Settings& settings);
 // What the pass writes under these settings.
 gl::Format formatOf(const Settings& settings, const Pass& pass);
 
 // Pixels that the technique wants rendered beyond each border of an image (guardBand).
 int guardPixels(const Settings& settings, int height);
-// Of GPU memory that the technique's passes write to, at this size.
+// Bytes of GPU memory that the technique's passes write to for an image of this size.
 double occlusionBytes(const Settings& settings, int width, int height);
-// Every which pixel across and down the technique works on.
+// The technique works on every nth pixel across and down; this is n (the setting `downscale`, 1
+// where it has none).
 int downscaleOf(const Settings& settings);
 
 // The scene's proxy spheres where shaders can read them: world position, radius (metres).
@@ -45,7 +46,8 @@ class ProxySpheres {
     gl::UniformBuffer buffer_;
 };
 
-// What techniques may read, each there where the technique's row asks for it.
+// What techniques may read. Only what the technique's row asks for must be there; the rest may be
+// null.
 struct OcclusionInputs {
     const GBuffer& gbuffer;
     const LightBuffers* light = nullptr;
@@ -54,22 +56,22 @@ struct OcclusionInputs {
     const Frame* frame = nullptr; // the one that is bound; for `downscale`
 };
 
-// Called after each pass has been issued, for timing and counting. What the pass read and gave is
-// bound.
+// Called after each pass has been issued, for timing and counting. The textures that the pass read
+// and those that it wrote are still bound then.
 using PassObserver = std::function<void(const Pass&)>;
 
 // Runs a pass's program over level 0 of a target, in all layers. What it reads must be bound.
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
               const gl::ScreenTriangle& triangle, const ProxySpheres* spheres);
 
-// A technique's passes over a G-buffer of one size: depth (and what else it reads) in, visibility
-// out.
+// A technique's passes over a G-buffer of one size: they read depth and whatever else the technique
+// asks for, and give visibility.
 class OcclusionPasses {
   public:
     OcclusionPasses(const Settings& settings, int width, int height);
 
-    // From now on with other values, which spares compiling; whole numbers, which are constants of
-    // the shaders, must be the same.
+    // Uses other values from now on without compiling anything. Whole-number settings must stay the
+    // same, because they are constants of the shaders.
     void set(const Settings& settings);
 
     // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
@@ -88,7 +90,7 @@ class OcclusionPasses {
         gl::Program program;
         std::optional<gl::Program> levelProgram;
         gl::SlicedTarget target;
-        int unit; // that later passes read it from
+        int unit; // the texture unit from which later passes read it
     };
     void bindInputs(const OcclusionInputs& inputs) const;
     void run(const Step& step, const OcclusionInputs& inputs) const;

@@ -1,4 +1,4 @@
-// obscura-poisson-sets SEED > renderer/techniques/poisson_sets.h
+// Makes the sample sets of VAO++: obscura-poisson-sets SEED > renderer/techniques/poisson_sets.h
 #include "renderer/techniques/poisson.h"
 
 #include <fmt/format.h>

@@ -5,15 +5,15 @@
 
 namespace obscura {
 
-// What lets a technique run on every nth pixel across and down (`downscale`, technique.h): a
-// smaller G-buffer that holds the picked pixels as they are, for an average of two depths is a
-// point on neither surface; and visibility spread back over the pixels left out, from those of the
-// four picked around them that lie on their surface (joint bilateral upsampling, Kopf et al. 2007,
-// weighted by distance from the pixel's plane in depth).
+// Lets a technique run on every nth pixel across and down (`downscale`, technique.h). First a
+// smaller G-buffer takes the picked pixels as they are; it does not average them, because the
+// average of two depths is a point on neither surface. Afterwards each pixel that was left out gets
+// its visibility from those of the four picked pixels around it that lie on its own surface (joint
+// bilateral upsampling, Kopf et al. 2007, weighted by distance from the pixel's plane in depth).
 class Reduction {
   public:
-    // `width` and `height` are the full size; `normals`: whether those are picked too. Visibility
-    // comes and goes in `format`.
+    // `width` and `height` are the full size; `normals` says whether normals are picked too.
+    // `format` is that of the visibility that is upsampled and of the result.
     Reduction(int factor, bool normals, int width, int height, gl::Format format);
 
     int width() const { return picked_.width(); }
@@ -29,14 +29,14 @@ class Reduction {
     // The full frame is bound again.
     const gl::Texture& upsample(const gl::Texture& visibility, const GBuffer& gbuffer);
 
-    // As observers see them.
+    // The two passes, as a PassObserver is told of them.
     static constexpr Pass reducePass{.name = "reduce",
                                      .format = gl::Format::r32f,
                                      .work = Work::prepare,
                                      .fetches = [](const Settings& s) {
                                          return s.technique().reads & Reads::normals ? 2.0 : 1.0;
                                      }};
-    // Two quads of depth; depths and values of four picked pixels.
+    // Fetches two quads of depth, and the depths and values of four picked pixels.
     static constexpr Pass upsamplePass{.name = "upsample",
                                        .format = gl::Format::r16f,
                                        .work = Work::upsample,

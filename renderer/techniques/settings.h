@@ -17,11 +17,12 @@ class Settings {
 
     const Technique& technique() const { return *technique_; }
     bool has(std::string_view name) const;
-    float operator[](std::string_view name) const; // a name it does not have is an assertion
+    float operator[](std::string_view name) const; // asserts that the name exists
     // An unknown name, a value out of range, or a fraction where the unit is whole: an Error at
     // `place`.
     void set(std::string_view name, double value, const Place& place = {});
-    // All that the technique's preset of that name says; an unknown name is an Error at `place`.
+    // Sets all that the technique's preset of that name says. An unknown name is an Error at
+    // `place`.
     void apply(std::string_view preset, const Place& place = {});
 
     const std::vector<float>& values() const { return values_; }

@@ -12,8 +12,8 @@
 namespace obscura {
 
 // What a row of the technique table says. Command line, protocol checks, manifest, shader
-// assembly, docs/techniques.md and tests all read it from there; nothing about a technique stands
-// anywhere else but in its shader.
+// assembly, docs/techniques.md and tests all read it from there; the only other place that knows
+// anything about a technique is its shader.
 
 class Settings;
 
@@ -57,8 +57,8 @@ enum class Work {
 const std::array<std::string, 4>& workNames();
 
 // A number of texture fetches (texelFetch, texture, textureLod and textureGather, each one; not
-// image stores, buffers or shared memory) as the shader's text has them: what a driver merges
-// counts twice.
+// image stores, buffers or shared memory) as the shader's text has them, whether or not a driver
+// merges some.
 using Fetches = double (*)(const Settings&);
 
 // One pass. Later passes read its output from a sampler called nameResult.
@@ -94,8 +94,8 @@ enum Reads : unsigned {
     rays = 8     // the triangles themselves: no passes, the reference gives visibility
 };
 
-// Settings that its authors offer together under one name ("high"). Never the radius, which is the
-// scene's.
+// Settings that a technique's authors offer together under one name ("high"). The radius is never
+// among them, because it belongs to the scene.
 struct PresetValue {
     std::string_view name;
     float value;

@@ -68,8 +68,9 @@ int lineCount(Ball ball) {
     return min(most, 2 << int(min(doublings, 20.0)));
 }
 
-// Equation 4: what a line wholly behind an occluder still counts for as blocked. The farther behind
-// it is the less, for occluders are not endless; in the moment of disappearing, all.
+// Equation 4: the share of a line wholly behind an occluder that counts as blocked. Occluders are
+// taken to be `thickness` thick: a line that has just disappeared behind one is blocked whole, and
+// the farther behind it a line lies, the smaller is its share.
 float blockedShare(vec2 line, float scene) {
     if (settings.rangeCheck < 0.5)
         return 1.0;

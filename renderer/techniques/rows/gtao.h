@@ -124,8 +124,8 @@ constexpr Pass edgesPass{.name = "edges",
                          .enabledBy = "denoise",
                          .work = Work::prepare,
                          .fetches = [](const Settings&) { return 5.0; }};
-// Depth of the pixel, edges of it and its four neighbours; nine values, where there is but red in
-// four.
+// Depth of the pixel; edges of it and its four neighbours; nine values, which take four fetches
+// (textureGather) where the texture has one channel.
 constexpr Pass denoisePass(std::string_view name, int from, std::string_view widenedBy = {}) {
     return {.name = name,
             .format = Format::r16f,
@@ -139,8 +139,8 @@ constexpr Pass denoisePass(std::string_view name, int from, std::string_view wid
             }};
 }
 
-// Widened, green, blue and alpha carry the bent normal. bentLight reads that, depth, normal and
-// albedo.
+// In the widened form of a pass, green, blue and alpha carry the bent normal. The pass bentLight
+// reads that, depth, normal and albedo.
 constexpr Pass gtaoPasses[] = {
     depthLevelsPass,
     surveyPass,

@@ -48,7 +48,8 @@ constexpr Parameter horizonBlurRadius(float value, std::string_view source) {
             32,           source};
 }
 
-// The SDK's contrast of 1.4, which it divides by what the bias leaves of the sine.
+// The SDK's contrast of 1.4, which it divides by 1 - sin(bias): the range that the bias leaves to
+// the sine.
 constexpr Parameter horizonIntensity =
     intensity(2.8f, "NVIDIA SDK 10, HBAO sample: contrast 1.4 / (1 - sin 30 degrees)");
 

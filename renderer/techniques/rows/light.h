@@ -31,14 +31,14 @@ constexpr Parameter ssdoParameters[] = {
     power(),
 };
 
-// The blur of one result, or the result itself.
+// Fetches of the blurred result of a pass, or of the result itself where nothing is blurred.
 constexpr Fetches maybeBlurred = [](const Settings& s) {
     return s["blur"] > 0 ? normalBlur(s) : 1;
 };
 
-// Depth and normal of the pixel; of each sample depth, the normal only where it is near enough to
-// block. Those that block are read again to bounce: depth, normal, ambient and direct light and the
-// share of the former that arrives.
+// The pass gather fetches depth and normal of the pixel and, of each sample, depth and (only where
+// it is near enough to block) the normal. The pass bounce reads those that block again: depth,
+// normal, direct and ambient light, and the share of the ambient light that arrives.
 constexpr Pass ssdoPasses[] = {
     {.name = "gather",
      .format = Format::rgba16f,
