@@ -19,7 +19,7 @@ struct CsvRecord {
 // order mark: spreadsheets write both.
 std::vector<CsvRecord> splitCsv(std::string_view text);
 
-// Why a record is not a whole line of so many cells; "" when it is.
+// Why a record is not a complete line of `columns` cells; "" when it is one.
 std::string faultOf(const CsvRecord& record, std::size_t columns);
 
 // The header must name these columns in this order; an Error at the first that differs.

@@ -12,14 +12,15 @@ namespace obscura {
 // The whole file; an Error naming the path and the system's reason when it cannot be read.
 std::string readFile(const std::filesystem::path& path);
 
-// A folder and what is missing above it, there still after a power cut.
+// Makes a folder, and the folders above it that are missing, so that they survive a power cut.
 void makeFolders(const std::filesystem::path& folder);
 
 // Writes beside the target, flushes to disk, then renames: a reader sees the old file or the new
 // one, never half of one, also after a power cut. Creates missing parent folders.
 void writeFile(const std::filesystem::path& path, std::string_view content);
 
-// The same where there is no such file yet: false, and nothing is changed, when there is.
+// Writes a new file in the same way. Where there is a file already, it changes nothing and returns
+// false.
 bool writeNewFile(const std::filesystem::path& path, std::string_view content);
 
 // The text as a file name that every system and every page takes: what is no letter, digit, "-",

@@ -9,10 +9,10 @@
 
 namespace obscura {
 
-// Calls work(i) for i = 0 ... count - 1 on so many threads, 0 for all cores; `progress` is told the
-// share done, from the calling thread. Each thread takes some hundredths of the work at a time, so
-// that small pieces cost no more than large ones. Work must not throw, and what it does for one i
-// must not depend on another's.
+// Calls work(i) for i = 0 ... count - 1 on so many `threads`; 0 means one for each core. `progress`
+// is told the share done, always from the calling thread. Each thread takes some hundredths of the
+// work at a time, so that small pieces cost no more than large ones. Work must not throw, and what
+// it does for one i must not depend on another's.
 template <std::integral Index, typename Work>
 void forEachInParallel(Index count, const Work& work,
                        const std::function<void(double)>& progress = {}, int threads = 0) {

@@ -9,8 +9,8 @@ namespace obscura {
 // Names one process for good, which its number alone does not: numbers are used again, and folders
 // are shared between machines.
 struct ProcessId {
-    std::string machine; // host name, and a digest of what tells hosts and containers of one name
-                         // apart; letters, digits and "-"
+    std::string machine; // host name, and a digest that tells apart hosts and containers of the
+                         // same name; letters, digits and "-"
     std::string boot;    // of this start of the machine, 32 hexadecimal digits; "" if unknown
     long pid = 0;
     long long start = -1; // when the process began, clock ticks since the boot; -1 if unknown

@@ -9,8 +9,9 @@
 namespace obscura {
 
 // Philox 4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): a block
-// cipher of a counter. Any number of any stream can be had at once, and the same everywhere: the
-// standard library's distributions and std::shuffle promise no such thing across compilers.
+// cipher of a counter. Any number of any stream can be computed directly, and it is the same
+// everywhere; the standard library's distributions and std::shuffle do not promise that across
+// compilers.
 std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                     std::array<std::uint32_t, 2> key);
 

@@ -17,8 +17,8 @@ struct Study {
 
     const PairRecord& pair(int condition) const; // as the protocol counts them, from 0
 
-    // All that must be the same for every participant: the protocol's design (design.h) and the
-    // hashes of the images.
+    // All that must be the same for every participant: the protocol's design
+    // (protocols/reader/design.h) and the hashes of the images.
     std::string design() const;
 };
 

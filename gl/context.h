@@ -12,8 +12,8 @@ struct Driver {
     bool software = false;
 };
 
-// Whether that is llvmpipe or another rasteriser of the CPU: its timer queries are not honest, and
-// its ratios of costs are not a GPU's.
+// Whether the driver is llvmpipe or another rasteriser that runs on the CPU. The timer queries of
+// such a driver are not honest, and its ratios of costs are not those of a GPU.
 bool isSoftware(const std::string& renderer);
 
 // One way to an OpenGL 4.5 core context without a window.

@@ -11,9 +11,9 @@ namespace obscura::gl {
 
 // Fixed-function state of a pass; apply() sets all of it, so no pass depends on the one before.
 struct State {
-    // Cameras have reversed depth (1 near, 0 infinitely far), where greater passes; the sun's runs
-    // forwards, where less passes; equal draws what an earlier pass found nearest, and leaves its
-    // depth.
+    // `reversed` is for cameras: depth is 1 near and 0 infinitely far, and the greater one passes.
+    // `forward` is for the sun: the smaller one passes. `equal` draws only what an earlier pass
+    // found nearest, and leaves the depth as it is.
     enum class Depth { off, reversed, forward, equal } depth = Depth::off;
     bool colour = true; // draw into the colour targets too
     bool cullBack = false;

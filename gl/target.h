@@ -45,7 +45,7 @@ void bindTexture(int unit, const Texture& texture);
 
 // The texture's content as it lies in memory, rows from bottom to top; for hashing.
 std::vector<std::byte> readBytes(const Texture& texture, int width, int height, Format format);
-// The same as floats with the format's number of channels.
+// The same content as floats, with as many channels as the format has.
 std::vector<float> readFloats(const Texture& texture, int width, int height, Format format);
 // Replaces the content of a texture of one channel, rows from the bottom.
 void writeFloats(const Texture& texture, int width, int height, std::span<const float> values);
@@ -53,7 +53,8 @@ void writeFloats(const Texture& texture, int width, int height, std::span<const 
 // Textures that are drawn into together.
 class Target {
   public:
-    // `depth` adds a depth32f texture, the last in colours' stead when there are none.
+    // `depth` adds a depth32f texture, which comes after the colours or, when there are none, in
+    // their place.
     Target(int width, int height, std::span<const Format> colours, bool depth,
            const std::string& label);
 
@@ -90,8 +91,9 @@ class SlicedTarget {
   public:
     SlicedTarget(int width, int height, Format format, Slices slices, const std::string& label);
 
-    // Draw into this slice, viewport to its size. Meanwhile shaders see the level before it as
-    // level 0, so that a level can be made from the one before; readAll() ends that.
+    // From now on this slice is drawn into, with a viewport of its size. Shaders then see the level
+    // before it as level 0, so that a level can be made from the one before; after readAll() they
+    // see all levels again.
     void bind(int level, int layer) const;
     void readAll() const;
     void clear() const;             // the slice that is bound, to zero

@@ -21,7 +21,7 @@ struct TimingChoice {
 // tenth.
 TimingChoice honestTiming();
 
-// How long pieces of work take that follow each other.
+// Times pieces of work that follow each other.
 class Timer {
   public:
     explicit Timer(Timing timing) : timing_(timing) {}
@@ -34,7 +34,7 @@ class Timer {
   private:
     Timing timing_;
     std::vector<QueryObject> queries_;
-    std::size_t marks_ = 0; // and the start, in queries_
+    std::size_t marks_ = 0; // used in queries_, the one at the start included
     std::vector<std::chrono::steady_clock::time_point> times_;
 };
 

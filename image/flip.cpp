@@ -213,8 +213,8 @@ SeenRow seenRow(const Opponents& image, int y, const Observer& observer) {
             features(image, y, observer.smooth, observer.curvature)};
 }
 
-// Distances of colour as shares of the largest of all, green to blue; of those, the lower 40 % take
-// 95 % of the range.
+// A distance of colours as a share of the largest distance that there is, from green to blue. The
+// lower 40 % of these shares are stretched over 95 % of the result's range.
 float redistributed(float colourDistance) {
     static const float largest = distance(huntLab(xyzFromRgb()[1]), huntLab(xyzFromRgb()[2]));
     const float share = colourDistance / largest;

@@ -42,7 +42,8 @@ Image8 quantised(const Image& image);
 // The same of linear values, by sRGB's transfer function: as a display is to show them.
 Image8 displayed(Image linear);
 
-// From rows that lie bottom first, as OpenGL has them: `keep` of `have` channels from `first` on.
+// An image from rows that lie bottom first, as OpenGL has them. Of the `have` channels it takes
+// `keep`, from `first` on.
 Image flipped(const std::vector<float>& values, int width, int height, int have, int first,
               int keep);
 

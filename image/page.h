@@ -9,9 +9,9 @@
 
 namespace obscura {
 
-// A white page of pictures and words (Cairo and Pango). A Cairo surface of more than 32,767 pixels
-// across or down has no data, and says so only when asked: such a page, and any other that Cairo
-// cannot make, is an Error.
+// A white page of pictures and words (Cairo and Pango). A page that Cairo cannot make is an Error:
+// one of more than 32,767 pixels across or down, for instance, of which Cairo makes a surface
+// without data that says so only when asked.
 class Page {
   public:
     Page(int width, int height);
@@ -20,7 +20,8 @@ class Page {
     // Pango markup; the size is in pixels.
     void text(int x, int y, const std::string& markup, int size);
     void image(int x, int y, const Image8& image); // 3 channels
-    // White visibility on white paper needs an edge.
+    // Draws an edge around a picture, without which white visibility could not be told from the
+    // white page.
     void frame(int x, int y, int width, int height);
 
     Image8 finish() const;

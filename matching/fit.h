@@ -14,15 +14,16 @@ struct Range {
     double low = 0, high = 0;
 };
 
-// What ends every technique (technique.h): visibility v becomes max(0, 1 - intensity (1 -
-// v))^power, at most 1.
+// The last step of every technique (renderer/techniques/technique.h): visibility v becomes
+// max(0, 1 - intensity (1 - v))^power, at most 1.
 struct Remap {
     double intensity = 1, power = 1;
 };
 double remapped(double visibility, const Remap& remap);
 
-// A technique's raw visibility beside a target, over the pixels of several views that weigh alike,
-// as one histogram: so that trying a remap costs a few thousand powers, not a rendering.
+// A technique's raw visibility beside a target, over the pixels of several views, each view
+// weighing the same. It is kept as one histogram, so that trying a remap costs a few thousand calls
+// of pow() and no rendering.
 class Comparison {
   public:
     // `image` was rendered with intensity `probe` and power 1. A probe below 1 keeps apart what the
@@ -46,10 +47,10 @@ class Comparison {
 
 enum class Criterion {
     leastSquares,
-    equalMean // and among remaps that give the target's mean, least squares
+    equalMean // least squares among the remaps that give the target's mean
 };
 
-// What may change, and between which bounds; what may not stays as in `start`.
+// Which values may change, and between which bounds; the others stay as they are in `start`.
 struct Tunable {
     Remap start;
     std::optional<Range> intensity, power;
@@ -62,7 +63,7 @@ struct FittedRemap {
 FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Criterion criterion);
 
 // The argument inside `range` with the least error, on a logarithmic scale: octaves around `start`
-// until the least is bracketed, then Brent's method to a few percent. Each evaluation is dear.
+// until the least is bracketed, then Brent's method to a few percent. Each evaluation is expensive.
 double fitMultiplier(const std::function<double(double)>& error, double start, Range range);
 constexpr int fitMultiplierEvaluations = 13; // about
 

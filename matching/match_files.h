@@ -16,7 +16,7 @@ std::string matchedFragment(const MatchStudy& study, const MatchResult& result);
 // One observation a line: technique, view, radius, set, reference, stage, then the errors.
 std::string matchTable(const MatchResult& result);
 
-// A finished technique by the hash of all that it depends on.
+// A finished technique's result, kept under the hash of all that it depends on.
 class FinishedTechniques {
   public:
     explicit FinishedTechniques(std::filesystem::path folder) : folder_(std::move(folder)) {}

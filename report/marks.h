@@ -5,8 +5,9 @@
 
 namespace obscura {
 
-// How a technique looks in every chart: by its place among the sweep's, 56 places differ in colour
-// (Okabe and Ito 2008, without yellow, which white paper swallows) or shape.
+// How a technique looks in every chart. It follows from the technique's place among those of the
+// sweep: 56 places differ in colour (Okabe and Ito 2008, without yellow, which cannot be seen on
+// white paper) or in shape.
 struct Mark {
     std::string_view colour; // "#0072B2"
     std::string_view path;   // of SVG, filled, within 5 units of the origin

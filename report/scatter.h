@@ -35,9 +35,10 @@ std::string scatterSvg(const Scatter& scatter, std::size_t seriesCount, std::siz
 // time and an error.
 std::string scatterScript(const Scatter& scatter, const std::vector<std::string>& seriesNames);
 
-// Where the numbers of a front's points stand, centred on their base lines: below and left of each,
-// where nothing can be but other such numbers; further away, at the end of a line, where those are
-// near; nowhere when they are everywhere. y points down, and a number is 12 units high.
+// Where the numbers of a front's points are printed; a place is the middle of the number's base
+// line. A number stands below and left of its point, where nothing but other such numbers can be.
+// If those are too near, it stands further away, at the end of a line; if there is no room there
+// either, it is left out. y points down, and a number is 12 units high.
 struct Spot {
     double x = 0, y = 0;
 };

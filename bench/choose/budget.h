@@ -10,16 +10,16 @@
 
 namespace obscura {
 
-// What is good enough, and whether something is: pure.
+// What is good enough, and whether a configuration is; all functions are pure.
 
-// The most that each measure may be; what is not given does not matter.
+// The limits: the most that each measure may be. A measure without a limit does not matter.
 struct Budget {
     std::optional<double> rmse;         // of matched visibility, 0 ... 1
     std::optional<double> flip;         // of matched visibility shown as sRGB grey
     std::optional<double> litFlip;      // of the lit image
     std::optional<double> flicker;      // 99th percentile of reference-relative change, worst path
     std::optional<double> milliseconds; // in 95 of 100 frames, on the dearest view
-    std::vector<std::string> failures;  // ids of failure tests (stability.h) that must pass
+    std::vector<std::string> failures;  // ids of failure tests that must pass
 };
 
 // "rmse=0.1" and the like, as the command line has them; an Error lists the names.

@@ -19,11 +19,12 @@ struct Configuration {
 };
 Settings settingsAt(const Configuration& configuration, double radius, bool matched);
 
-std::string sceneOf(const View& view);      // file or built-in name
-View viewOfScene(const std::string& scene); // the other way: of the built-in scene of that name, or
-                                            // else of that file; from where, is still to be said
+std::string sceneOf(const View& view); // file or built-in name
+// A view of the built-in scene of that name, or else of that file, whose camera is still to be set.
+View viewOfScene(const std::string& scene);
 
-// Called while a truth is made: seconds spent of those that truthCost() names, and which it is.
+// Called while a truth is made: how many of the seconds that truthCost() names are over, and which
+// truth it is.
 using TruthProgress = std::function<void(double seconds, const std::string& note)>;
 
 struct ViewErrors {

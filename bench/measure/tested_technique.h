@@ -12,9 +12,9 @@ namespace obscura {
 // unless a test scales everything. Shaders are compiled once for each size of image.
 class TestedTechnique {
   public:
-    // `configuration`: a technique's id, and perhaps settings: "hbao", "hbao steps=8 blur=0". What
-    // the table does not have, a radius of one's own, and a technique that traces the scene's
-    // triangles are Errors.
+    // `configuration`: a technique's id, and perhaps settings: "hbao", "hbao steps=8 blur=0". It is
+    // an Error if the table does not know the technique or a setting, if a radius is given, or if
+    // the technique traces the scene's triangles.
     explicit TestedTechnique(const std::string& configuration);
 
     const std::string& configuration() const { return configuration_; }

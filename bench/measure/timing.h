@@ -41,7 +41,7 @@ struct TechniqueTime {
 // Called after each frame with the share done, 0 ... 1.
 using TimingProgress = std::function<void(double)>;
 
-// `radius` is the anchor's.
+// Times all techniques on the probe's view. `radius` is that of the anchor, `starcraft`.
 std::vector<TechniqueTime> timeTechniques(const Probe& probe, std::span<const Settings> techniques,
                                           double radius, const TimingPlan& plan,
                                           const TimingProgress& progress = {});
@@ -49,10 +49,12 @@ std::vector<TechniqueTime> timeTechniques(const Probe& probe, std::span<const Se
 // The pixels that a guard band adds, as a share of the image's.
 double guardShare(const Settings& settings, int width, int height);
 
-// Of numbers in any order; 0 without any. Percentiles are interpolated between ranks (R's type 7).
+// Median and percentiles of numbers in any order; 0 without any number. Percentiles are
+// interpolated between ranks (R's type 7).
 Milliseconds summaryOf(std::vector<double> milliseconds);
 
-// What `starcraft` with 16 samples and its blur is, on a view of this radius: an anchor of ratios.
+// The settings of `starcraft` with 16 samples and its blur for this radius, to which all times are
+// compared.
 Settings starcraftAnchor(double radius);
 
 } // namespace obscura

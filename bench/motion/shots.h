@@ -30,8 +30,8 @@ class Shots {
     // The configurations must outlive it.
     Shots(const Scene& scene, std::span<const NamedSettings> configurations, int width, int height);
 
-    // By the configurations of these indices, in this order; the seed is their noise's. Without
-    // truth.
+    // A picture by the configurations of these indices, in this order; `seed` is that of their
+    // noise. Its truth is left empty.
     Shot take(const Camera& camera, std::uint64_t seed, std::span<const std::size_t> which) const;
     Image truth(const Surfaces& surfaces, const TraceSettings& settings) const;
 
@@ -43,7 +43,7 @@ class Shots {
     mutable std::vector<OcclusionPasses> passes_; // of each configuration
 };
 
-// Both with truth.
+// What happened between two shots, both of which must have their truth.
 FrameStep stepBetween(const Shot& before, const Shot& now);
 
 } // namespace obscura

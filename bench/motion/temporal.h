@@ -11,14 +11,15 @@ namespace obscura {
 // pixels while the camera moves. Only in the test "still" does its seed change with every frame.
 //
 // The headline is reference-relative change, motion-compensated. Its plain form, pixel by pixel, is
-// given too, but tells bias from truth and not flicker: `none` lies in the midst of all techniques,
-// because a constant picture lacks the truth's change at every edge that passes a pixel.
+// given too, but it mostly shows how far a technique is from the truth, not how much it flickers:
+// `none` lies in the middle of all techniques, because a constant picture lacks the truth's change
+// at every edge that passes a pixel.
 //
 // The truth is traced with rays that are the same for all pixels and frames, so that their error
-// sticks to the surfaces. What is left of it can be read from a configuration of `ray_traced`,
-// which has other rays, as many as its settings say; what is left of fetching bilinearly, from
-// `none`: its unreal change is the truth's warped change. No technique can be told from perfect
-// below those.
+// sticks to the surfaces. How much of this error is left can be read from a configuration of
+// `ray_traced`, which has other rays, as many as its settings say. What bilinear fetching adds can
+// be read from `none`, whose unreal change is the truth's warped change. A technique whose values
+// are below those two cannot be told from a perfect one.
 
 TemporalEffort fullTemporalEffort();
 TemporalEffort quickTemporalEffort(); // smaller, fewer frames and rays, and two paths

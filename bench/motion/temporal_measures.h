@@ -17,7 +17,7 @@ class Magnitudes {
     std::uint64_t count() const { return count_; }
     // NaN without any value.
     double mean() const;
-    // The smallest value that at least such a share of all do not exceed.
+    // The smallest value that at least this share of all values do not exceed.
     double percentile(double share) const;
 
   private:
@@ -30,8 +30,8 @@ class Magnitudes {
 class StillNoise {
   public:
     void add(const Image& visibility);
-    // Of each pixel over the frames added, two or more: the root of the unbiased estimate of
-    // variance.
+    // Each pixel's standard deviation over the frames added, which must be two or more: the root of
+    // the unbiased estimate of variance.
     Image deviation() const;
 
   private:

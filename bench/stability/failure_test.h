@@ -25,7 +25,7 @@ struct Finding {
     std::vector<Measure> others = {};
 };
 
-// Whichever of a test's images is furthest from what it should be.
+// Of all images of a test, the one that is furthest from what it should be.
 struct Worst {
     double value = 0;
     std::string where = {};
@@ -43,7 +43,7 @@ class FailureTest {
   public:
     virtual ~FailureTest() = default;
     virtual Finding measure(const TestedTechnique& technique) const = 0;
-    // One that shows what the test is about.
+    // A view that shows what the test is about.
     virtual const FailureView& view() const = 0;
 };
 
@@ -60,9 +60,9 @@ std::unique_ptr<FailureTest> makeTest(ImageSize size) {
 std::span<const FailureTestRow> openTests();
 // Where occluders are thin, hidden or seen at a grazing angle.
 std::span<const FailureTestRow> occluderTests();
-// Where the camera does: nearness, distance, the noise tile on its screen.
+// What depends on the camera: nearness, distance, the noise tile on its screen.
 std::span<const FailureTestRow> cameraTests();
-// What should change nothing and does: borders, resolution, roll and scale.
+// What should make no difference and does: borders, resolution, roll and scale.
 std::span<const FailureTestRow> invarianceTests();
 
 } // namespace obscura

@@ -34,8 +34,8 @@ bool between(float value, double low, double high);
 // Which pixels a measure is about; rows from top to bottom.
 using Selection = std::vector<bool>;
 
-// What a camera sees of a scene, which must live as long: for techniques to be run on, and the
-// truth about it.
+// What a camera sees of a scene: techniques can be run on it, and it knows the truth. The scene
+// must live as long as this object.
 class FailureView {
   public:
     FailureView(const FailureScene& scene, const Camera& camera, ImageSize size,
@@ -50,7 +50,7 @@ class FailureView {
     double radiusPixels() const;
     // Visibility by ray tracing with a radius of 1 m; traced when first asked for.
     const Image& truth() const;
-    // The scene as a lamp at the camera shows it, to be recognised by.
+    // The scene lit by a lamp at the camera, so that people recognise what they see.
     Image lit() const;
 
   private:
@@ -63,7 +63,7 @@ class FailureView {
 // The image where it is selected, white elsewhere.
 Image onlySelected(const Image& image, const Selection& selection);
 
-// Of visibility, over the selected pixels.
+// Measures of visibility over the selected pixels.
 double meanOcclusion(const Image& visibility, const Selection& selection);
 double largestOcclusion(const Image& visibility, const Selection& selection);
 Difference difference(const Image& first, const Image& second, const Selection& selection);

@@ -7,7 +7,8 @@
 
 namespace obscura {
 
-// What a camera sees that has been turned about its line of sight, turned back.
+// What a camera sees after it has been turned about its line of sight; pictures can be turned back
+// to the level view.
 class RolledView {
   public:
     // `camera` is that of the level view, before it is turned (failure_scenes.h, rolled()).

@@ -12,8 +12,7 @@
 namespace obscura {
 
 // `obscura-bench stability`: techniques through every failure test. The folder gets stability.csv
-// (stability_csv.h), stability.json, pictures/TEST-CONFIGURATION.png and stability.html
-// (stability_page.h).
+// (csv.h), stability.json, pictures/TEST-CONFIGURATION.png and stability.html (page.h).
 
 // Camera paths through a scene, for steadiness from frame to frame.
 struct Motion {
@@ -24,7 +23,7 @@ struct Motion {
 };
 
 struct StabilityOptions {
-    std::vector<std::string> configurations; // tested_technique.h
+    std::vector<std::string> configurations; // as bench/measure/tested_technique.h takes them
     std::filesystem::path folder;
     ImageSize size{320, 180};       // of the tests' images; some derive theirs from it
     std::vector<std::string> tests; // of still pictures, by id; those in motion have their own list
@@ -34,8 +33,8 @@ struct StabilityOptions {
     bool anew = false; // whatever the folder's CSV holds is measured again, or left out
 };
 
-// All tests of still pictures, in the order of the page's columns; those in motion (temporal.h)
-// follow them.
+// All tests of still pictures, in the order of the page's columns; those in motion
+// (bench/motion/temporal.h) follow them.
 std::vector<StabilityTest> stabilityTests();
 std::vector<std::string> stillTestIds();
 // The defaults of every technique of the table that sees only the screen.
@@ -44,10 +43,11 @@ std::vector<std::string> screenTechniques();
 // The share done, 0 ... 1, and what is at hand.
 using StabilityProgress = std::function<void(double, const std::string&)>;
 
-// Runs the tests. What stands in the folder's CSV of other tests and configurations stays, if it
-// was measured with the same `about`; with another it is an Error, unless all begins anew. The CSV
-// is written again after each technique, so that finished ones are kept, and the page at the end. A
-// context must be current; an unknown test is an Error. Returns all that stands in the CSV.
+// Runs the tests. What the folder's CSV holds of other tests and configurations stays, if it was
+// measured with the same `about`. If it was measured with another, that is an Error, unless `anew`
+// is set. The CSV is written again after each technique, so that finished ones are kept, and the
+// page at the end. A context must be current; an unknown test is an Error. Returns all that stands
+// in the CSV.
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress);
 

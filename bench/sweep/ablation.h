@@ -10,7 +10,7 @@
 namespace obscura {
 
 // What the extensions of VAO++ save, and at what error, as in Table 1 of Bokšanský, Pospíšil and
-// Bittner 2017: what `obscura-bench ablation` makes of a sweep of
+// Bittner 2017. `obscura-bench ablation` makes these tables of a sweep of
 // protocols/sweep-vao-plus-plus.toml.
 
 // By number of samples (lines), resolution and variant, with all other settings equal. NaN: not

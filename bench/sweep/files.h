@@ -13,7 +13,7 @@ namespace obscura {
 std::string sweepCsv(const std::vector<SweepRow>& rows);
 std::string growthCsv(const std::vector<GrowthRow>& rows);
 
-// Thumbnails are the writer's own business.
+// Thumbnails are not written here; whoever makes a row writes its thumbnail.
 void writeSweep(const std::filesystem::path& folder, const Sweep& sweep);
 
 // An Error names file, line and column.
@@ -29,7 +29,7 @@ void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first
 std::string incompleteness(const Sweep& sweep);
 
 // Writes the parts of one study as one sweep, with their thumbnails, into a folder that has none.
-// An Error says what was measured twice and where, or in what they differ.
+// An Error says what was measured twice and where, or in what the parts differ.
 Sweep mergeSweeps(const std::vector<std::filesystem::path>& parts,
                   const std::filesystem::path& folder);
 

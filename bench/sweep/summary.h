@@ -36,7 +36,8 @@ std::string titleOf(const SweepGroup& group);
 // In the order in which scenes first appear; of a scene, the smallest picture first.
 std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows);
 
-// Points of the group that lack views which others have: their medians are of other pictures.
+// Points of the group that lack views which other points have, so that their medians are of other
+// pictures.
 std::vector<std::string> lackingViews(const SweepGroup& group);
 
 // An error that charts can show; less is better.
@@ -54,7 +55,7 @@ std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasur
 Scatter scatterOf(const SweepGroup& group, const ErrorMeasure& measure,
                   const std::vector<std::string>& techniques);
 
-// Ids in alphabetical order: what colours and marks are given out by.
+// Ids of techniques in alphabetical order. A technique's place in it decides its colour and mark.
 std::vector<std::string> techniquesOf(const std::vector<SweepRow>& rows);
 
 std::size_t indexOf(const std::vector<std::string>& techniques, const std::string& technique);

@@ -25,9 +25,9 @@ struct SweepPlan {
 // changed, and its scenes.
 std::string identityOf(const SweepStudy& study, SceneHashes& hashes);
 
-// What neither sweep() nor choose() can do is an Error: a technique that traces rays, and
-// references that take longer than `hours`: `referenceSeconds` of test views, and those of training
-// views.
+// Throws an Error for what neither sweep() nor choose() can do: a technique that traces rays, or
+// references that take longer than `hours`. Their time is `referenceSeconds` for test views plus
+// what training views take.
 void requireMeasurable(const SweepStudy& study, double referenceSeconds, double hours);
 
 // Called now and then: how much is done, of how much (about seconds), and what is at hand.

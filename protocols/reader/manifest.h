@@ -22,7 +22,7 @@ struct Recipe {
     std::string technique;                  // id in the technique table
     std::map<std::string, double> settings; // every parameter, defaults filled in, radius in metres
     std::string shaderSha256;               // of the text of every shader that made the image
-    std::string codeSha256; // of our C++ that renders (renderer/code.h); "" in manifests before 2
+    std::string codeSha256; // of our C++ that renders (imageCode()); "" before version 2
     std::string programVersion;
     std::string glVendor, glRenderer, glVersion;
 

@@ -8,8 +8,8 @@
 #include <functional>
 #include <span>
 
-// What the figures' bodies and clothes are made of: fields as in builtin_implicit.h, in metres, of
-// people who face +z with their feet at the origin; and the colours painted on them.
+// What the figures' bodies and clothes are made of: fields as in implicit.h, in metres, of people
+// who face +z with their feet at the origin; and the colours painted on them.
 namespace obscura::builtin {
 
 float face(glm::vec3 p); // about the origin, in the middle of the head

@@ -8,7 +8,7 @@
 namespace obscura::builtin {
 
 // A scaly body swept along a smooth curve, with ribs below and a crest along its back; a horned
-// head with open jaws. A field as in builtin_implicit.h.
+// head with open jaws. A field as in implicit.h.
 class Serpent {
   public:
     struct Joint {

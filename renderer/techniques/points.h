@@ -18,9 +18,9 @@ std::vector<glm::vec4> squarePoints(const Settings& settings);
 // `samples` points (xyz) of LearnOpenGL's kernel around +z (de Vries 2020; Puri 2024, section 3.3):
 // a point drawn evenly from the box |x|, |y| <= 1, 0 <= z <= 1 gives the direction alone. So a
 // direction's likelihood grows with the cube of the distance to the box's wall: a corner is 5.2
-// times as likely as the middle of a side. The i-th length is distributed evenly in [0, 0.1 + 0.9
-// (i / n)^2]: half of all points lie within 0.12. Where the original draws by chance, we take the
-// R4 sequence: it has the same distribution, and every run has the same kernel.
+// times as likely as the middle of a side. The i-th length is distributed evenly in
+// [0, 0.1 + 0.9 (i / n)^2]: half of all points lie within 0.12. Where the original draws by chance,
+// we take the R4 sequence: it has the same distribution, and every run has the same kernel.
 std::vector<glm::vec4> boxKernel(const Settings& settings);
 
 // `samples` unit vectors (xy), each the golden angle on from the one before: the arms on which
