@@ -1,3 +1,4 @@
+#include "protocols/named_number.h"
 #include "protocols/progress.h"
 #include "renderer/builtin.h"
 #include "renderer/document.h"
@@ -129,11 +130,10 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     if (!options.preset.empty())
         setting.preset = {options.preset, {}};
     for (const std::string& text : options.settings) {
-        const std::size_t equals = text.find('=');
-        if (equals == std::string::npos)
+        const auto given = readNamedNumber(text);
+        if (!given)
             throw Error(fmt::format("expected --set NAME=NUMBER, found \"{}\"", text));
-        setting.settings.push_back(
-            {text.substr(0, equals), std::strtod(text.c_str() + equals + 1, nullptr), {}});
+        setting.settings.push_back({given->name, given->value, {}});
     }
     protocol.techniques.push_back(setting);
     Condition condition;
