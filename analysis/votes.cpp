@@ -141,7 +141,9 @@ std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest
 
 std::vector<Tally> readCounts(const std::filesystem::path& path) {
     const std::string file = path.string();
-    const std::vector<CsvRecord> records = splitCsv(readFile(path));
+    const std::string text = readFile(path);
+    checkIsCsv(text, file);
+    const std::vector<CsvRecord> records = splitCsv(text);
     if (records.size() < 2 || !std::ranges::equal(records.front().cells, countColumns))
         throw Error({file, 1, 0, {}}, fmt::format("expected the header {} and a line for each "
                                                   "condition",

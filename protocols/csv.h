@@ -19,6 +19,11 @@ struct CsvRecord {
 // order mark: spreadsheets write both.
 std::vector<CsvRecord> splitCsv(std::string_view text);
 
+// Refuses a text that is another format under the name of CSV (compressed, a spreadsheet's own,
+// UTF-16, a web page, other separators, line ends of CR alone), saying in plain words which and
+// what to do.
+void checkIsCsv(std::string_view text, const std::string& file);
+
 // Why a record is not a whole line of so many cells; "" when it is.
 std::string faultOf(const CsvRecord& record, std::size_t columns);
 
