@@ -87,10 +87,13 @@ void checkImages(const Answer& answer, const Manifest& stimuli) {
 constexpr std::array<std::string_view, 8> countColumns = {
     "condition_id", "level", "scene", "tech_a", "tech_b", "hypothesis", "votes_a", "votes_b"};
 
-int voteCount(const std::string& cell, const Place& place) {
-    int count = 0;
-    if (!readCell(cell, count) || count < 0)
-        throw Error(place, fmt::format("expected a whole number >= 0, found \"{}\"", cell));
+constexpr std::int64_t mostVotes = 1'000'000'000'000; // sums of a file stay far within 64 bits
+
+std::int64_t voteCount(const std::string& cell, const Place& place) {
+    std::int64_t count = 0;
+    if (!readCell(cell, count) || count < 0 || count > mostVotes)
+        throw Error(place, fmt::format("expected a whole number from 0 to {}, found \"{}\"",
+                                       mostVotes, cell));
     return count;
 }
 

@@ -156,6 +156,7 @@ void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
 }
 
 bool readCell(std::string_view cell, int& number) { return readNumber(cell, number); }
+bool readCell(std::string_view cell, std::int64_t& number) { return readNumber(cell, number); }
 bool readCell(std::string_view cell, double& number) { return readNumber(cell, number); }
 
 std::string csvCell(std::string_view value) {

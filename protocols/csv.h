@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,7 @@ void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
 
 // The whole cell as a number; false when it is anything else.
 bool readCell(std::string_view cell, int& number);
+bool readCell(std::string_view cell, std::int64_t& number);
 bool readCell(std::string_view cell, double& number);
 
 // The value as one cell, quoted where it must be.

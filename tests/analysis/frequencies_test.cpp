@@ -217,5 +217,15 @@ TEST(Wilson, CoversTheTrueShareAboutAsOftenAsItSays) {
     EXPECT_NEAR(mean, 0.95, 0.005);
 }
 
+TEST(FrequenciesTest, CountsBeyond32BitsAreRight) {
+    const Votes votes{2'000'000'000, 2'000'000'000};
+    EXPECT_EQ(votes.total(), 4'000'000'000);
+    EXPECT_EQ(chiSquare(votes), 0);
+    EXPECT_NEAR(exactP(votes), 1, 1e-9);
+    const Interval share = wilson(votes.b, votes.total());
+    EXPECT_GT(share.low, 0.4999);
+    EXPECT_LT(share.high, 0.5001);
+}
+
 } // namespace
 } // namespace obscura
