@@ -1,6 +1,7 @@
 #include "renderer/techniques/poisson.h"
 
 #include "base/random.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
