@@ -8,8 +8,8 @@ namespace obscura {
 
 namespace {
 
-int totalVotes(const Findings& findings) {
-    int total = 0;
+std::int64_t totalVotes(const Findings& findings) {
+    std::int64_t total = 0;
     for (const Tally& tally : findings.tallies)
         total += tally.votes.total();
     return total;
@@ -56,7 +56,7 @@ std::string preference(const Tally& tally) {
 }
 
 std::string extent(const Findings& findings) {
-    const int votes = totalVotes(findings);
+    const std::int64_t votes = totalVotes(findings);
     const std::size_t conditions = findings.tallies.size();
     if (!findings.conduct)
         return fmt::format("The published counts hold {} votes on {} conditions.", votes,

@@ -37,7 +37,7 @@ double exactP(Votes votes) {
     return std::min(1.0, 2 * boost::math::cdf(guessing, std::min(votes.a, votes.b)));
 }
 
-Interval wilson(int successes, int trials) {
+Interval wilson(std::int64_t successes, std::int64_t trials) {
     assert(successes >= 0 && successes <= trials && trials > 0);
     const double n = trials, share = successes / n;
     const double z = probit(0.975), z2 = z * z;

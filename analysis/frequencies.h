@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 namespace obscura {
@@ -9,8 +10,8 @@ namespace obscura {
 // much. No value is ever NaN or infinite: what does not exist is absent.
 
 struct Votes {
-    int a = 0, b = 0; // each >= 0
-    int total() const { return a + b; }
+    std::int64_t a = 0, b = 0; // each >= 0
+    std::int64_t total() const { return a + b; }
 };
 
 struct Interval {
@@ -31,7 +32,7 @@ double exactP(Votes votes);
 
 // Score interval of the share successes / trials at 95 %: Wilson, J. Am. Stat. Assoc. 22 (1927)
 // 209; recommended at such N by Brown, Cai, DasGupta, Stat. Sci. 16 (2001) 101, section 3.1.1.
-Interval wilson(int successes, int trials);
+Interval wilson(std::int64_t successes, std::int64_t trials);
 
 // Cohen, Statistical Power Analysis, 2nd ed. 1988: g = share - 1/2 (chapter 5),
 // h = 2 asin sqrt(share) - pi/2 (chapter 6), w = sqrt(chi-square / N) = 2 |g| (chapter 7).

@@ -3,9 +3,9 @@
 #include "analysis/findings.h"
 #include "analysis/report.h"
 #include "analysis/table.h"
-
 #include "base/files.h"
 #include "base/version.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

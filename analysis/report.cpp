@@ -2,10 +2,10 @@
 
 #include "analysis/chart.h"
 #include "analysis/table.h"
-#include "report/html.h"
-
 #include "base/files.h"
 #include "base/version.h"
+#include "report/html.h"
+
 #include <fmt/format.h>
 
 #include <set>

@@ -1,6 +1,7 @@
 #include "analysis/table.h"
 
 #include "base/csv.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -86,10 +87,13 @@ void checkImages(const Answer& answer, const Manifest& stimuli) {
 constexpr std::array<std::string_view, 8> countColumns = {
     "condition_id", "level", "scene", "tech_a", "tech_b", "hypothesis", "votes_a", "votes_b"};
 
-int voteCount(const std::string& cell, const Place& place) {
-    int count = 0;
-    if (!readCell(cell, count) || count < 0)
-        throw Error(place, fmt::format("expected a whole number >= 0, found \"{}\"", cell));
+constexpr std::int64_t mostVotes = 1'000'000'000'000; // sums of a file stay far within 64 bits
+
+std::int64_t voteCount(const std::string& cell, const Place& place) {
+    std::int64_t count = 0;
+    if (!readCell(cell, count) || count < 0 || count > mostVotes)
+        throw Error(place, fmt::format("expected a whole number from 0 to {}, found \"{}\"",
+                                       mostVotes, cell));
     return count;
 }
 
@@ -140,7 +144,9 @@ std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest
 
 std::vector<Tally> readCounts(const std::filesystem::path& path) {
     const std::string file = path.string();
-    const std::vector<CsvRecord> records = splitCsv(readFile(path));
+    const std::string text = readFile(path);
+    checkIsCsv(text, file);
+    const std::vector<CsvRecord> records = splitCsv(text);
     if (records.size() < 2 || !std::ranges::equal(records.front().cells, countColumns))
         throw Error({file, 1, 0, {}}, fmt::format("expected the header {} and a line for each "
                                                   "condition",

@@ -1,6 +1,7 @@
 #include "base/csv.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -84,7 +85,43 @@ bool readNumber(std::string_view cell, T& number) {
     return error == std::errc{} && end == cell.data() + cell.size();
 }
 
+constexpr std::string_view saveAgain = "; save it again as CSV, UTF-8, separated by commas";
+
+// What the whole text is instead of CSV; "" when nothing speaks against it.
+std::string otherFormat(std::string_view text) {
+    const auto begins = [&](std::string_view with) { return text.starts_with(with); };
+    if (begins("\x1F\x8B"))
+        return "compressed by gzip; unpack it first (gunzip)";
+    if (begins("PK\x03\x04"))
+        return std::string("a zip archive or a spreadsheet (xlsx, ods)").append(saveAgain);
+    if (begins("\xD0\xCF\x11\xE0"))
+        return std::string("an old Excel workbook (xls)").append(saveAgain);
+    if (begins("\xFF\xFE") || begins("\xFE\xFF") ||
+        (text.size() > 1 && (text[0] == '\0') != (text[1] == '\0')))
+        return std::string("text in UTF-16").append(saveAgain);
+    if (text.substr(0, text.find_first_not_of(" \t\r\n") + 1).ends_with('<'))
+        return std::string("a web page (HTML or XML)").append(saveAgain);
+    return {};
+}
+
 } // namespace
+
+void checkIsCsv(std::string_view text, const std::string& file) {
+    if (const std::string other = otherFormat(text); !other.empty())
+        throw Error({file, 1, 0, {}}, "expected CSV, found " + other);
+    const std::string_view header = text.substr(0, text.find('\n'));
+    if (std::count(header.begin(), header.end(), '\r') > 1)
+        throw Error(
+            {file, 1, 0, {}},
+            fmt::format("expected lines that end in LF or CR LF, found CR alone{}", saveAgain));
+    if (header.find(',') != header.npos)
+        return;
+    for (const char separator : {';', '\t'})
+        if (header.find(separator) != header.npos)
+            throw Error({file, 1, 0, {}},
+                        fmt::format("expected cells separated by commas, found {}{}",
+                                    separator == ';' ? "semicolons" : "tabs", saveAgain));
+}
 
 std::vector<CsvRecord> splitCsv(std::string_view text) {
     std::vector<CsvRecord> records;
@@ -119,6 +156,7 @@ void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
 }
 
 bool readCell(std::string_view cell, int& number) { return readNumber(cell, number); }
+bool readCell(std::string_view cell, std::int64_t& number) { return readNumber(cell, number); }
 bool readCell(std::string_view cell, double& number) { return readNumber(cell, number); }
 
 std::string csvCell(std::string_view value) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,11 @@ struct CsvRecord {
 // order mark: spreadsheets write both.
 std::vector<CsvRecord> splitCsv(std::string_view text);
 
+// Refuses a text that is another format under the name of CSV (compressed, a spreadsheet's own,
+// UTF-16, a web page, other separators, line ends of CR alone), saying in plain words which and
+// what to do.
+void checkIsCsv(std::string_view text, const std::string& file);
+
 // Why a record is not a complete line of `columns` cells; "" when it is one.
 std::string faultOf(const CsvRecord& record, std::size_t columns);
 
@@ -28,6 +34,7 @@ void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
 
 // The whole cell as a number; false when it is anything else.
 bool readCell(std::string_view cell, int& number);
+bool readCell(std::string_view cell, std::int64_t& number);
 bool readCell(std::string_view cell, double& number);
 
 // The value as one cell, quoted where it must be.

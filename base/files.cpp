@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/process.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>

@@ -1,6 +1,5 @@
-#include "bench/commands.h"
-
 #include "base/error.h"
+#include "bench/commands.h"
 
 namespace {
 

@@ -1,10 +1,10 @@
 #include "experiment/continuity.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include "protocols/reader/design.h"
 #include "protocols/reader/responses.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

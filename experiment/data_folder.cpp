@@ -1,9 +1,9 @@
 #include "experiment/data_folder.h"
 
-#include "protocols/reader/responses.h"
-
 #include "base/error.h"
 #include "base/files.h"
+#include "protocols/reader/responses.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "experiment/refresh.h"
-
 #include "gl/window.h"
 #include "image/image.h"
+
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>

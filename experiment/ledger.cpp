@@ -1,10 +1,10 @@
 #include "experiment/ledger.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include "experiment/append_file.h"
 #include "experiment/machine.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

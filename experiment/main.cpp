@@ -1,3 +1,6 @@
+#include "base/error.h"
+#include "base/progress.h"
+#include "base/version.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
@@ -5,9 +8,6 @@
 #include "experiment/session.h"
 #include "experiment/signals.h"
 
-#include "base/error.h"
-#include "base/progress.h"
-#include "base/version.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,10 +1,10 @@
 #pragma once
 
+#include "base/random.h"
 #include "experiment/refresh.h"
 #include "experiment/study.h"
 #include "experiment/trial.h"
 
-#include "base/random.h"
 #include <nlohmann/json_fwd.hpp>
 
 #include <string>

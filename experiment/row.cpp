@@ -1,8 +1,8 @@
 #include "experiment/row.h"
 
+#include "base/version.h"
 #include "experiment/machine.h"
 
-#include "base/version.h"
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #include "experiment/schedule.h"
 
 #include "base/random.h"
+
 #include <fmt/format.h>
 
 #include <cassert>

@@ -1,12 +1,12 @@
 #include "experiment/session.h"
 
+#include "base/files.h"
 #include "experiment/continuity.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
 #include "experiment/sidecar.h"
 #include "experiment/signals.h"
 
-#include "base/files.h"
 #include <nlohmann/json.hpp>
 
 #include <optional>

@@ -1,10 +1,10 @@
 #include "experiment/sidecar.h"
 
+#include "base/files.h"
+#include "base/version.h"
 #include "experiment/machine.h"
 #include "protocols/reader/design.h"
 
-#include "base/files.h"
-#include "base/version.h"
 #include <nlohmann/json.hpp>
 
 namespace obscura {

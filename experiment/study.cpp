@@ -1,9 +1,9 @@
 #include "experiment/study.h"
 
-#include "protocols/reader/design.h"
-
 #include "base/error.h"
 #include "base/files.h"
+#include "protocols/reader/design.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,8 @@
 #pragma once
 
+#include "image/image.h"
 #include "protocols/reader/manifest.h"
 #include "protocols/reader/protocol.h"
-
-#include "image/image.h"
 
 #include <filesystem>
 

@@ -1,6 +1,7 @@
 #include "experiment/text.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 #include <pango/pangocairo.h>
 

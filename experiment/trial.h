@@ -1,8 +1,7 @@
 #pragma once
 
-#include "protocols/reader/protocol.h"
-
 #include "gl/input.h"
+#include "protocols/reader/protocol.h"
 
 #include <array>
 #include <optional>

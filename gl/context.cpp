@@ -1,9 +1,10 @@
 #include "gl/context.h"
 
+#include "base/error.h"
+
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
-#include "base/error.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include "gl/picture.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <cassert>

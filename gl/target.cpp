@@ -1,6 +1,7 @@
 #include "gl/target.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

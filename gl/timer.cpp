@@ -3,6 +3,7 @@
 #include "gl/draw.h"
 #include "gl/program.h"
 #include "gl/target.h"
+
 #include <fmt/format.h>
 
 #include <array>

@@ -1,8 +1,9 @@
 #include "gl/window.h"
 
+#include "base/error.h"
+
 #include <epoxy/gl.h>
 
-#include "base/error.h"
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 

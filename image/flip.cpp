@@ -1,6 +1,7 @@
 #include "image/flip.h"
 
 #include "base/parallel.h"
+
 #include <glm/glm.hpp>
 
 #include <algorithm>

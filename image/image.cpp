@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>

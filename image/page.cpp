@@ -1,6 +1,7 @@
 #include "image/page.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 #include <pango/pangocairo.h>
 

@@ -1,8 +1,5 @@
 #include "matching/match.h"
 
-#include "renderer/probe.h"
-#include "renderer/reference/reference_cache.h"
-
 #include "base/files.h"
 #include "base/version.h"
 #include "image/page.h"
@@ -10,6 +7,9 @@
 #include "matching/match_files.h"
 #include "matching/match_sheet.h"
 #include "matching/truths.h"
+#include "renderer/probe.h"
+#include "renderer/reference/reference_cache.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "protocols/reader/match.h"
-#include "renderer/render.h"
-
 #include "gl/context.h"
 #include "matching/match_row.h"
+#include "protocols/reader/match.h"
+#include "renderer/render.h"
 
 #include <filesystem>
 #include <functional>

@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,6 +1,7 @@
 #include "matching/match_sheet.h"
 
 #include "image/page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,10 @@
+#include "base/named_number.h"
+#include "base/progress.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
 #include "renderer/techniques/document.h"
 
-#include "base/progress.h"
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
@@ -130,11 +131,10 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     if (!options.preset.empty())
         setting.preset = {options.preset, {}};
     for (const std::string& text : options.settings) {
-        const std::size_t equals = text.find('=');
-        if (equals == std::string::npos)
+        const auto given = readNamedNumber(text);
+        if (!given)
             throw Error(fmt::format("expected --set NAME=NUMBER, found \"{}\"", text));
-        setting.settings.push_back(
-            {text.substr(0, equals), std::strtod(text.c_str() + equals + 1, nullptr), {}});
+        setting.settings.push_back({given->name, given->value, {}});
     }
     protocol.techniques.push_back(setting);
     Condition condition;

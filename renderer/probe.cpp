@@ -1,8 +1,7 @@
 #include "renderer/probe.h"
 
-#include "renderer/scene/proxies.h"
-
 #include "gl/context.h"
+#include "renderer/scene/proxies.h"
 
 namespace obscura {
 

@@ -1,13 +1,13 @@
 #include "renderer/render.h"
 
+#include "base/files.h"
+#include "base/version.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/frame/composite.h"
 #include "renderer/reference/traced.h"
 #include "renderer/scene/proxies.h"
 #include "renderer/techniques/occlusion_passes.h"
 
-#include "base/files.h"
-#include "base/version.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,11 +1,10 @@
 #pragma once
 
+#include "gl/context.h"
+#include "image/image.h"
 #include "protocols/reader/manifest.h"
 #include "renderer/scene/scene.h"
 #include "renderer/techniques/settings.h"
-
-#include "gl/context.h"
-#include "image/image.h"
 
 #include <filesystem>
 #include <map>

@@ -1,8 +1,8 @@
 #include "report/gnuplot.h"
 
+#include "base/error.h"
 #include "report/html.h"
 
-#include "base/error.h"
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>

@@ -1,9 +1,9 @@
 #include "report/paper_figure.h"
 
+#include "base/files.h"
 #include "report/gnuplot.h"
 #include "report/marks.h"
 
-#include "base/files.h"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

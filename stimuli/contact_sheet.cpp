@@ -1,6 +1,7 @@
 #include "stimuli/contact_sheet.h"
 
 #include "image/page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "protocols/reader/manifest.h"
-
 #include "image/image.h"
+#include "protocols/reader/manifest.h"
 
 #include <vector>
 

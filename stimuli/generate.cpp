@@ -1,12 +1,12 @@
 #include "stimuli/generate.h"
 
+#include "base/files.h"
+#include "base/version.h"
+#include "image/page.h"
 #include "protocols/reader/design.h"
 #include "stimuli/contact_sheet.h"
 #include "stimuli/plan.h"
 
-#include "base/files.h"
-#include "base/version.h"
-#include "image/page.h"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,9 +1,9 @@
-#include "renderer/reference/reference_cache.h"
-#include "stimuli/generate.h"
-
 #include "base/progress.h"
 #include "matching/match.h"
 #include "matching/match_files.h"
+#include "renderer/reference/reference_cache.h"
+#include "stimuli/generate.h"
+
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/error.h"
+
 #include <gtest/gtest.h>
 
 #include <string>

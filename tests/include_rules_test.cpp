@@ -1,5 +1,6 @@
 // Who may include whom (docs/architecture.md): linking alone does not catch headers.
 #include "base/files.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,6 +1,8 @@
 #include "bench/choose/budget.h"
 
 #include "base/error.h"
+#include "base/named_number.h"
+
 #include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -44,17 +46,13 @@ Budget budgetOf(std::span<const std::string> limits) {
     for (const auto& [name, member] : all)
         names.emplace_back(name);
     for (const std::string& limit : limits) {
-        const std::size_t equals = std::min(limit.find('='), limit.size());
-        const std::string name = limit.substr(0, equals);
-        const std::string number = equals < limit.size() ? limit.substr(equals + 1) : "";
-        char* end = nullptr;
-        const double value = std::strtod(number.c_str(), &end);
-        const auto found = std::find(names.begin(), names.end(), name);
-        if (found == names.end() || number.empty() || *end || !(value >= 0))
+        const auto given = readNamedNumber(limit);
+        const auto found = std::find(names.begin(), names.end(), given ? given->name : "");
+        if (found == names.end() || given->value < 0)
             throw Error(fmt::format("expected a limit like rmse=0.1, with one of {} before \"=\" "
                                     "and a number of at least 0 after it, found \"{}\"",
                                     fmt::join(names, ", "), limit));
-        budget.*(all[static_cast<std::size_t>(found - names.begin())].second) = value;
+        budget.*(all[static_cast<std::size_t>(found - names.begin())].second) = given->value;
     }
     return budget;
 }

@@ -3,10 +3,10 @@
 #include "bench/measure/timing.h"
 #include "bench/motion/steadiness.h"
 #include "bench/sweep/summary.h"
-
 #include "matching/match.h"
 #include "matching/match_files.h"
 #include "matching/truths.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,13 +1,13 @@
 #include "bench/choose/report.h"
 
+#include "base/csv.h"
+#include "base/error.h"
+#include "base/files.h"
 #include "bench/sweep/pareto.h"
 #include "renderer/techniques/settings.h"
 #include "report/gnuplot.h"
 #include "report/paper_figure.h"
 
-#include "base/csv.h"
-#include "base/error.h"
-#include "base/files.h"
 #include <fmt/format.h>
 
 #include <algorithm>

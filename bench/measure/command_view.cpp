@@ -1,12 +1,12 @@
+#include "base/progress.h"
 #include "bench/commands.h"
 #include "bench/measure/measured_view.h"
 #include "bench/measure/normals.h"
 #include "bench/measure/rays.h"
 #include "bench/measure/tested_technique.h"
 #include "bench/measure/timing.h"
-
-#include "base/progress.h"
 #include "gl/context.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

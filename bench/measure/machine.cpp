@@ -1,11 +1,11 @@
 #include "bench/measure/machine.h"
 
-#include "renderer/reference/reference_cache.h"
-#include "renderer/render.h"
-
 #include "base/files.h"
 #include "base/version.h"
 #include "matching/match.h"
+#include "renderer/reference/reference_cache.h"
+#include "renderer/render.h"
+
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bench/sweep/row.h"
-
 #include "gl/context.h"
 #include "gl/timer.h"
 

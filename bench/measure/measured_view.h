@@ -1,11 +1,10 @@
 #pragma once
 
 #include "bench/sweep/row.h"
+#include "matching/truths.h"
 #include "protocols/reader/sweep.h"
 #include "renderer/lit_view.h"
 #include "renderer/render.h"
-
-#include "matching/truths.h"
 
 #include <map>
 #include <optional>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "bench/sweep/row.h"
-
 #include "image/image.h"
 
 namespace obscura {

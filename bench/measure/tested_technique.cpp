@@ -1,27 +1,18 @@
 #include "bench/measure/tested_technique.h"
 
 #include "base/error.h"
+#include "base/named_number.h"
 #include "base/percentile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <sstream>
 
 namespace obscura {
 
 namespace {
-
-double numberIn(const std::string& word, const std::string& configuration) {
-    const std::size_t at = word.find('=') + 1;
-    double value = 0;
-    const auto [end, fault] = std::from_chars(&word[at], word.data() + word.size(), value);
-    if (at == 0 || fault != std::errc() || end != word.data() + word.size())
-        throw Error(
-            fmt::format("expected setting=number, found \"{}\" in \"{}\"", word, configuration));
-    return value;
-}
 
 Settings settingsIn(const std::string& configuration) {
     std::istringstream words(configuration);
@@ -33,13 +24,15 @@ Settings settingsIn(const std::string& configuration) {
                                 "the scene itself: it is the truth",
                                 word));
     while (words >> word) {
-        const double value = numberIn(word, configuration);
-        const std::string name = word.substr(0, word.find('='));
-        if (name == "radius")
+        const auto given = readNamedNumber(word);
+        if (!given)
+            throw Error(fmt::format("expected setting=number, found \"{}\" in \"{}\"", word,
+                                    configuration));
+        if (given->name == "radius")
             throw Error(fmt::format("\"{}\": the radius is the tests' unit of length and cannot "
                                     "be set; radiusMultiplier can",
                                     configuration));
-        settings.set(name, value, {"", 0, 0, configuration});
+        settings.set(given->name, given->value, {"", 0, 0, configuration});
     }
     if (settings.has("radius"))
         settings.set("radius", 1);

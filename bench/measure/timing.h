@@ -1,9 +1,8 @@
 #pragma once
 
 #include "bench/sweep/row.h"
-#include "renderer/probe.h"
-
 #include "gl/timer.h"
+#include "renderer/probe.h"
 
 #include <functional>
 #include <span>

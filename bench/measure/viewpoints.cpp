@@ -1,9 +1,9 @@
 #include "bench/measure/viewpoints.h"
 
+#include "base/random.h"
 #include "renderer/probe.h"
 #include "renderer/reference/reference.h"
 
-#include "base/random.h"
 #include <fmt/format.h>
 
 #include <algorithm>

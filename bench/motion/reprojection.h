@@ -1,8 +1,7 @@
 #pragma once
 
-#include "renderer/frame/surfaces.h"
-
 #include "image/image.h"
+#include "renderer/frame/surfaces.h"
 
 #include <vector>
 

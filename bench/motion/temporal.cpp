@@ -1,10 +1,10 @@
 #include "bench/motion/temporal.h"
 
+#include "base/error.h"
 #include "bench/motion/temporal_animation.h"
 #include "bench/motion/temporal_pictures.h"
 #include "bench/stability/csv.h"
 
-#include "base/error.h"
 #include <fmt/format.h>
 
 #include <array>

@@ -1,6 +1,7 @@
 #include "bench/motion/temporal_pictures.h"
 
 #include "image/page.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

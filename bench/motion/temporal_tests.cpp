@@ -1,8 +1,8 @@
 #include "bench/motion/temporal_tests.h"
 
+#include "base/error.h"
 #include "bench/motion/camera_path.h"
 
-#include "base/error.h"
 #include <fmt/format.h>
 
 #include <vector>

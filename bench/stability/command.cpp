@@ -1,11 +1,11 @@
+#include "base/progress.h"
 #include "bench/commands.h"
 #include "bench/measure/machine.h"
 #include "bench/measure/measured_view.h"
 #include "bench/motion/temporal_tests.h"
 #include "bench/stability/stability.h"
-
-#include "base/progress.h"
 #include "gl/context.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -3,6 +3,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "bench/stability/page.h"
 
+#include "base/files.h"
 #include "bench/stability/csv.h"
 #include "report/html.h"
 
-#include "base/files.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,12 +1,12 @@
 #include "bench/stability/stability.h"
 
+#include "base/files.h"
 #include "bench/motion/temporal_tests.h"
 #include "bench/stability/csv.h"
 #include "bench/stability/failure_test.h"
 #include "bench/stability/page.h"
-
-#include "base/files.h"
 #include "image/page.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

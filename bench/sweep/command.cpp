@@ -1,3 +1,5 @@
+#include "base/files.h"
+#include "base/progress.h"
 #include "bench/choose/choose.h"
 #include "bench/choose/report.h"
 #include "bench/commands.h"
@@ -11,8 +13,6 @@
 #include "bench/sweep/sweep.h"
 #include "renderer/reference/reference_cache.h"
 
-#include "base/files.h"
-#include "base/progress.h"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

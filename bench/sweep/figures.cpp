@@ -1,11 +1,11 @@
 #include "bench/sweep/figures.h"
 
+#include "base/files.h"
 #include "bench/sweep/growth.h"
 #include "bench/sweep/summary.h"
 #include "report/gnuplot.h"
 #include "report/scatter.h"
 
-#include "base/files.h"
 #include <fmt/format.h>
 
 #include <algorithm>

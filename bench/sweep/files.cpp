@@ -1,10 +1,10 @@
 #include "bench/sweep/files.h"
 
-#include "renderer/techniques/technique.h"
-
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "renderer/techniques/technique.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

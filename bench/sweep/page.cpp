@@ -1,15 +1,15 @@
 #include "bench/sweep/page.h"
 
+#include "base/files.h"
 #include "bench/sweep/files.h"
 #include "bench/sweep/page_style.h"
 #include "bench/sweep/page_tables.h"
+#include "gl/context.h"
 #include "renderer/techniques/technique.h"
 #include "report/html.h"
 #include "report/marks.h"
 #include "report/scatter.h"
 
-#include "base/files.h"
-#include "gl/context.h"
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

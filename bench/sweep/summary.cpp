@@ -1,6 +1,7 @@
 #include "bench/sweep/summary.h"
 
 #include "base/percentile.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

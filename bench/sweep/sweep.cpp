@@ -1,5 +1,7 @@
 #include "bench/sweep/sweep.h"
 
+#include "base/files.h"
+#include "base/random.h"
 #include "bench/measure/machine.h"
 #include "bench/measure/measured_view.h"
 #include "bench/measure/timing.h"
@@ -7,12 +9,10 @@
 #include "bench/sweep/figures.h"
 #include "bench/sweep/files.h"
 #include "bench/sweep/page.h"
-#include "renderer/techniques/fetches.h"
-
-#include "base/files.h"
-#include "base/random.h"
 #include "image/page.h"
 #include "matching/match.h"
+#include "renderer/techniques/fetches.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

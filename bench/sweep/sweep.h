@@ -1,10 +1,9 @@
 #pragma once
 
 #include "bench/sweep/row.h"
+#include "gl/timer.h"
 #include "protocols/reader/sweep.h"
 #include "renderer/render.h"
-
-#include "gl/timer.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,6 +1,7 @@
 #include "protocols/reader/manifest.h"
 
 #include "base/files.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

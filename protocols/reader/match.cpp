@@ -1,8 +1,8 @@
 #include "protocols/reader/match.h"
 
+#include "base/files.h"
 #include "protocols/reader/study_parts.h"
 
-#include "base/files.h"
 #include <fmt/format.h>
 
 #include <set>

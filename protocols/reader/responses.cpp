@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -234,7 +235,9 @@ std::string responseLine(const Response& response) {
 
 ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
     const std::string file = path.string();
-    const std::vector<CsvRecord> records = splitCsv(readFile(path));
+    const std::string text = readFile(path);
+    checkIsCsv(text, file);
+    const std::vector<CsvRecord> records = splitCsv(text);
     ResponseFile result;
     const auto reject = [&](const Place& place, const std::string& message) {
         if (!lenient)

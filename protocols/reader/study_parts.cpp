@@ -1,6 +1,7 @@
 #include "protocols/reader/study_parts.h"
 
 #include "base/files.h"
+
 #include <fmt/format.h>
 
 #include <cmath>

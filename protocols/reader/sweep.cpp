@@ -1,8 +1,8 @@
 #include "protocols/reader/sweep.h"
 
+#include "base/files.h"
 #include "protocols/reader/study_parts.h"
 
-#include "base/files.h"
 #include <fmt/ranges.h>
 
 namespace obscura {

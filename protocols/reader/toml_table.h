@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/error.h"
+
 #include <toml++/toml.h>
 
 #include <array>

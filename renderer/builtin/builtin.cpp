@@ -1,9 +1,9 @@
 #include "renderer/builtin/builtin.h"
 
-#include "renderer/builtin/scenes.h"
-
 #include "base/error.h"
 #include "base/files.h"
+#include "renderer/builtin/scenes.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 #include "renderer/builtin/figure.h"
 
+#include "base/parallel.h"
 #include "renderer/builtin/atlas.h"
 #include "renderer/builtin/noise.h"
 #include "renderer/builtin/textures.h"
 
-#include "base/parallel.h"
 #include <glm/gtc/constants.hpp>
 
 #include <algorithm>

@@ -1,9 +1,8 @@
+#include "base/parallel.h"
 #include "renderer/builtin/masonry.h"
 #include "renderer/builtin/people.h"
 #include "renderer/builtin/scenes.h"
 #include "renderer/builtin/textures.h"
-
-#include "base/parallel.h"
 
 #include <array>
 #include <utility>

@@ -1,6 +1,7 @@
 #include "renderer/builtin/furnishings.h"
 
 #include "base/random.h"
+
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 

@@ -1,8 +1,7 @@
 #include "renderer/builtin/textures.h"
 
-#include "renderer/builtin/shapes.h"
-
 #include "base/parallel.h"
+#include "renderer/builtin/shapes.h"
 
 #include <algorithm>
 #include <cmath>

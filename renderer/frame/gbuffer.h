@@ -1,12 +1,11 @@
 #pragma once
 
-#include "protocols/reader/protocol.h"
-#include "renderer/scene/scene.h"
-#include "renderer/shaders/frame.h"
-
 #include "gl/draw.h"
 #include "gl/program.h"
 #include "gl/target.h"
+#include "protocols/reader/protocol.h"
+#include "renderer/scene/scene.h"
+#include "renderer/shaders/frame.h"
 
 #include <optional>
 

@@ -1,8 +1,7 @@
 #pragma once
 
-#include "renderer/frame/gbuffer.h"
-
 #include "image/image.h"
+#include "renderer/frame/gbuffer.h"
 
 #include <array>
 #include <filesystem>

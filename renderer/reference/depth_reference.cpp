@@ -1,8 +1,7 @@
 #include "renderer/reference/depth_reference.h"
 
-#include "renderer/reference/sobol.h"
-
 #include "base/parallel.h"
+#include "renderer/reference/sobol.h"
 
 #include <algorithm>
 #include <cmath>

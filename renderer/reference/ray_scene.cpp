@@ -1,6 +1,7 @@
 #include "renderer/reference/ray_scene.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

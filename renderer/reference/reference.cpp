@@ -16,10 +16,10 @@
 // agree, something as large as one ray may still have been missed: 1 / N.
 #include "renderer/reference/reference.h"
 
+#include "base/parallel.h"
 #include "renderer/reference/ray_packets.h"
 #include "renderer/reference/ray_scene.h"
 
-#include "base/parallel.h"
 #include <fmt/format.h>
 
 #include <cmath>

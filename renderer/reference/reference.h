@@ -1,10 +1,9 @@
 #pragma once
 
+#include "image/image.h"
 #include "renderer/frame/surfaces.h"
 #include "renderer/reference/trace_settings.h"
 #include "renderer/scene/scene.h"
-
-#include "image/image.h"
 
 #include <functional>
 #include <memory>

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "renderer/scene/gltf_accessor.h"
 #include "renderer/scene/gltf_check.h"
 #include "renderer/scene/gltf_file.h"
@@ -5,7 +6,6 @@
 #include "renderer/scene/gltf_piece.h"
 #include "renderer/scene/scene.h"
 
-#include "base/error.h"
 #include <fmt/format.h>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>

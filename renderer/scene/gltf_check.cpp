@@ -1,6 +1,7 @@
 #include "renderer/scene/gltf_check.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>

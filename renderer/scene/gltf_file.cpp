@@ -1,9 +1,9 @@
 #include "renderer/scene/gltf_file.h"
 
-#include "renderer/scene/gltf_check.h"
-
 #include "base/error.h"
 #include "base/files.h"
+#include "renderer/scene/gltf_check.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "renderer/scene/gltf_materials.h"
 
-#include "renderer/scene/gltf_check.h"
-
 #include "base/error.h"
 #include "base/parallel.h"
+#include "renderer/scene/gltf_check.h"
+
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "image/image.h"
+
 #include <glm/glm.hpp>
 
 #include <cstdint>

@@ -1,8 +1,8 @@
 #include "renderer/techniques/document.h"
 
+#include "base/files.h"
 #include "renderer/techniques/fetches.h"
 
-#include "base/files.h"
 #include <fmt/format.h>
 
 namespace obscura {

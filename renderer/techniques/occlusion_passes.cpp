@@ -1,6 +1,7 @@
 #include "renderer/techniques/occlusion_passes.h"
 
 #include "base/error.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>

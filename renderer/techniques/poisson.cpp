@@ -1,6 +1,7 @@
 #include "renderer/techniques/poisson.h"
 
 #include "base/random.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -156,8 +157,8 @@ std::vector<glm::dvec2> poissonSet(int size, std::uint64_t seed) {
 
 std::string poissonTable(std::uint64_t seed) {
     std::string text =
-        fmt::format("// Made by `obscura-poisson-sets {} > renderer/techniques/poisson_sets.h`; "
-                    "renderer/techniques/poisson.h says what it is.\n"
+        fmt::format("// Made by `obscura-poisson-sets {} > renderer/techniques/poisson_sets.h`;\n"
+                    "// renderer/techniques/poisson.h says what it is.\n"
                     "// clang-format off\n#pragma once\n\nnamespace obscura {{\n\n"
                     "constexpr unsigned poissonSeed = {};\n\n"
                     "// x, y; the sets one after another, so the set of n begins at n - 2.\n"

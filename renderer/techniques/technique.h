@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/target.h"
+
 #include <glm/glm.hpp>
 
 #include <array>

@@ -1,3 +1,4 @@
+#include "base/error.h"
 #include "renderer/techniques/rows/aalborg.h"
 #include "renderer/techniques/rows/gtao.h"
 #include "renderer/techniques/rows/horizon.h"
@@ -8,7 +9,6 @@
 #include "renderer/techniques/rows/vao_plus_plus.h"
 #include "renderer/techniques/rows/volume.h"
 
-#include "base/error.h"
 #include <fmt/format.h>
 
 #include <string>

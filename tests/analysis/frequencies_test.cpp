@@ -1,7 +1,7 @@
 #include "analysis/frequencies.h"
-
 #include "base/csv.h"
 #include "base/files.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -215,6 +215,16 @@ TEST(Wilson, CoversTheTrueShareAboutAsOftenAsItSays) {
                 mean += probabilityOfVotes(k, n, share) / steps;
     }
     EXPECT_NEAR(mean, 0.95, 0.005);
+}
+
+TEST(FrequenciesTest, CountsBeyond32BitsAreRight) {
+    const Votes votes{2'000'000'000, 2'000'000'000};
+    EXPECT_EQ(votes.total(), 4'000'000'000);
+    EXPECT_EQ(chiSquare(votes), 0);
+    EXPECT_NEAR(exactP(votes), 1, 1e-9);
+    const Interval share = wilson(votes.b, votes.total());
+    EXPECT_GT(share.low, 0.4999);
+    EXPECT_LT(share.high, 0.5001);
 }
 
 } // namespace

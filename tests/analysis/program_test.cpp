@@ -1,8 +1,8 @@
 // obscura-analysis as a person runs it.
 
+#include "base/csv.h"
 #include "tests/analysis/sample_study.h"
 
-#include "base/csv.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,11 +1,11 @@
 #include "analysis/chart.h"
 #include "analysis/report.h"
 #include "analysis/table.h"
+#include "base/csv.h"
 #include "report/html.h"
 #include "tests/analysis/sample_study.h"
 #include "tests/report/xml.h"
 
-#include "base/csv.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 #pragma once
 
+#include "base/files.h"
 #include "protocols/reader/manifest.h"
 #include "tests/error_of.h"
 #include "tests/folder.h"
 #include "tests/protocols/reader/sample_response.h"
 
-#include "base/files.h"
 #include <gtest/gtest.h>
 #include <unistd.h>
 

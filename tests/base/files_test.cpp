@@ -1,9 +1,9 @@
-#include "tests/folder.h"
-#include "tests/lossy_disk.h"
-
 #include "base/error.h"
 #include "base/files.h"
 #include "base/process.h"
+#include "tests/folder.h"
+#include "tests/lossy_disk.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "base/percentile.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "base/process.h"
+
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>

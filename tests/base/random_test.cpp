@@ -1,4 +1,5 @@
 #include "base/random.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

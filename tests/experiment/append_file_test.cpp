@@ -1,8 +1,8 @@
+#include "base/files.h"
 #include "experiment/append_file.h"
 #include "tests/folder.h"
 #include "tests/lossy_disk.h"
 
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

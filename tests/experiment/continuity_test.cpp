@@ -1,9 +1,9 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "experiment/continuity.h"
 #include "experiment/session.h"
 #include "tests/experiment/tiny_study.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

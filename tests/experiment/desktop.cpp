@@ -1,6 +1,7 @@
 #include "tests/experiment/desktop.h"
 
 #include "base/error.h"
+
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>

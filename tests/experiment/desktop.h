@@ -1,6 +1,7 @@
 #pragma once
 
 #include "image/image.h"
+
 #include <sys/types.h>
 
 #include <memory>

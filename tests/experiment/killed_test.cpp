@@ -1,8 +1,8 @@
+#include "base/files.h"
 #include "experiment/session.h"
 #include "protocols/reader/responses.h"
 #include "tests/experiment/tiny_study.h"
 
-#include "base/files.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

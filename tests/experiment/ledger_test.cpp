@@ -1,9 +1,9 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "experiment/ledger.h"
 #include "experiment/machine.h"
 #include "tests/experiment/tiny_study.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,3 +1,5 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
 #include "experiment/pages.h"
@@ -8,8 +10,6 @@
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <X11/keysym.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

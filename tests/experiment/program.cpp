@@ -1,6 +1,7 @@
 #include "tests/experiment/program.h"
 
 #include "base/files.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>

@@ -1,9 +1,9 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "experiment/recorder.h"
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+#include "base/files.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
 #include "experiment/study.h"
@@ -6,7 +7,6 @@
 #include "tests/experiment/program.h"
 #include "tests/experiment/tiny_study.h"
 
-#include "base/files.h"
 #include <X11/keysym.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,11 +1,11 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
 #include "protocols/reader/responses.h"
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

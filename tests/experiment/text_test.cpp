@@ -1,6 +1,6 @@
+#include "base/error.h"
 #include "experiment/pages.h"
 
-#include "base/error.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 #include "tests/experiment/tiny_study.h"
 
-#include "protocols/reader/design.h"
-
 #include "base/files.h"
 #include "base/random.h"
+#include "protocols/reader/design.h"
+
 #include <fmt/format.h>
 
 #include <cstdlib>

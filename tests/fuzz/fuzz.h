@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/error.h"
+
 #include <sys/mman.h>
 #include <unistd.h>
 

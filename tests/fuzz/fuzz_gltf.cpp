@@ -1,9 +1,9 @@
 // libFuzzer: any bytes as a glTF file, binary where they begin as one. An Error is right, and so is
 // a scene; all else is a finding.
-#include "renderer/scene/scene.h"
-
 #include "base/error.h"
 #include "base/files.h"
+#include "renderer/scene/scene.h"
+
 #include <unistd.h>
 
 #include <cstdio>

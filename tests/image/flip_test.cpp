@@ -1,5 +1,6 @@
 #include "base/random.h"
 #include "image/flip.h"
+
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 

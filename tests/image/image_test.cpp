@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "image/image.h"
+
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>

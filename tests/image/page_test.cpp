@@ -1,6 +1,6 @@
+#include "image/page.h"
 #include "tests/error_of.h"
 
-#include "image/page.h"
 #include <gmock/gmock.h>
 
 namespace obscura {

@@ -1,4 +1,5 @@
 #include "matching/fit.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

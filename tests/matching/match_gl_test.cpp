@@ -1,12 +1,12 @@
 // Matching from end to end, on a corner with a stair in it and few pixels.
-#include "renderer/probe.h"
-#include "tests/foreign_files.h"
-#include "tests/renderer/scene/small_gltf.h"
-
 #include "base/files.h"
 #include "gl/context.h"
 #include "matching/match.h"
 #include "matching/match_files.h"
+#include "renderer/probe.h"
+#include "tests/foreign_files.h"
+#include "tests/renderer/scene/small_gltf.h"
+
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,4 +1,5 @@
 #include "matching/match_sheet.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
+#include "base/files.h"
 #include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
 
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

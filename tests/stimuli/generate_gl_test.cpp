@@ -1,3 +1,5 @@
+#include "base/files.h"
+#include "gl/context.h"
 #include "renderer/frame/light.h"
 #include "stimuli/generate.h"
 #include "stimuli/plan.h"
@@ -5,8 +7,6 @@
 #include "tests/foreign_files.h"
 #include "tests/renderer/scene/small_gltf.h"
 
-#include "base/files.h"
-#include "gl/context.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
+#include "base/error.h"
 #include "bench/choose/budget.h"
 #include "bench/measure/timing.h"
 
-#include "base/error.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
+#include "base/files.h"
 #include "bench/choose/report.h"
 #include "tests/error_of.h"
 #include "tests/folder.h"
 
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

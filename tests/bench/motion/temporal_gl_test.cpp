@@ -1,9 +1,8 @@
 // Whole tests on a small scene.
+#include "base/error.h"
 #include "bench/motion/temporal.h"
 #include "bench/motion/temporal_tests.h"
 #include "tests/renderer/techniques/occlusion_fixture.h"
-
-#include "base/error.h"
 
 #include <algorithm>
 

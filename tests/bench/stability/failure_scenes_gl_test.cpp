@@ -1,4 +1,5 @@
 // What failure tests measure with, against what is known without them.
+#include "base/error.h"
 #include "bench/measure/tested_technique.h"
 #include "bench/stability/failure_scenes.h"
 #include "bench/stability/failure_view.h"
@@ -6,7 +7,6 @@
 #include "bench/stability/stored_depth.h"
 #include "tests/renderer/techniques/occlusion_fixture.h"
 
-#include "base/error.h"
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 // Failure tests on techniques whose results are known in advance.
+#include "base/error.h"
 #include "bench/stability/failure_test.h"
 #include "bench/stability/stability.h"
 #include "tests/foreign_files.h"
 #include "tests/renderer/techniques/occlusion_fixture.h"
-
-#include "base/error.h"
 
 #include <set>
 

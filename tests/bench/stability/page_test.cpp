@@ -1,8 +1,8 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "bench/stability/csv.h"
 #include "bench/stability/page.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
+#include "base/random.h"
 #include "bench/stability/tile_pattern.h"
 
-#include "base/random.h"
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,9 +1,9 @@
+#include "base/files.h"
 #include "bench/sweep/figures.h"
 #include "tests/bench/sweep/sample_sweep.h"
 #include "tests/folder.h"
 #include "tests/report/xml.h"
 
-#include "base/files.h"
 #include <gmock/gmock.h>
 
 namespace obscura {

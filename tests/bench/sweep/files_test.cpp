@@ -1,10 +1,10 @@
+#include "base/csv.h"
+#include "base/files.h"
 #include "bench/sweep/files.h"
 #include "tests/bench/sweep/sample_sweep.h"
 #include "tests/error_of.h"
 #include "tests/folder.h"
 
-#include "base/csv.h"
-#include "base/files.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

@@ -1,3 +1,4 @@
+#include "base/files.h"
 #include "bench/sweep/page.h"
 #include "report/html.h"
 #include "tests/bench/sweep/sample_sweep.h"
@@ -5,7 +6,6 @@
 #include "tests/folder.h"
 #include "tests/report/xml.h"
 
-#include "base/files.h"
 #include <gmock/gmock.h>
 
 namespace obscura {

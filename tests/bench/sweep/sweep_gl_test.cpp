@@ -1,15 +1,15 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "bench/choose/choose.h"
 #include "bench/choose/report.h"
 #include "bench/measure/timing.h"
 #include "bench/measure/viewpoints.h"
 #include "bench/sweep/files.h"
+#include "gl/context.h"
 #include "renderer/builtin/builtin.h"
 #include "tests/error_of.h"
 #include "tests/foreign_files.h"
 
-#include "base/error.h"
-#include "base/files.h"
-#include "gl/context.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
+#include "base/files.h"
 #include "protocols/reader/manifest.h"
 
-#include "base/files.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

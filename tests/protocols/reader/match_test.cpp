@@ -1,6 +1,6 @@
+#include "base/files.h"
 #include "protocols/reader/match.h"
 
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

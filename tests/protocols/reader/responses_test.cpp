@@ -1,8 +1,8 @@
+#include "base/csv.h"
+#include "base/files.h"
 #include "protocols/reader/responses.h"
 #include "tests/protocols/reader/sample_response.h"
 
-#include "base/csv.h"
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,6 +1,6 @@
+#include "base/error.h"
 #include "protocols/reader/sweep.h"
 
-#include "base/error.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
+#include "base/error.h"
 #include "renderer/builtin/builtin.h"
 
-#include "base/error.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

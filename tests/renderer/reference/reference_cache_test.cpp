@@ -1,7 +1,7 @@
-#include "renderer/reference/reference_cache.h"
-
 #include "base/error.h"
 #include "base/files.h"
+#include "renderer/reference/reference_cache.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

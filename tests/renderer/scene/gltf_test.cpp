@@ -1,11 +1,11 @@
 // What a glTF file from outside may hold: every number in it may lie.
+#include "base/error.h"
+#include "base/files.h"
 #include "renderer/scene/scene.h"
 #include "tests/error_of.h"
 #include "tests/folder.h"
 #include "tests/renderer/scene/small_gltf.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>

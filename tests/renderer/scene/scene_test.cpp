@@ -1,8 +1,8 @@
+#include "base/error.h"
+#include "base/files.h"
 #include "renderer/scene/scene.h"
 #include "tests/renderer/scene/small_gltf.h"
 
-#include "base/error.h"
-#include "base/files.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

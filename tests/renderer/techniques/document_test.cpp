@@ -1,6 +1,6 @@
+#include "base/files.h"
 #include "renderer/techniques/document.h"
 
-#include "base/files.h"
 #include <gtest/gtest.h>
 
 namespace obscura {

@@ -2,11 +2,11 @@
 // the image as shown, and its visibility. Judged by four numbers of golden/tolerances.toml: a
 // difference that may be seen in a few values, one that no value may reach, and a bound on the
 // signed mean, since faults of occlusion are shifts. scripts/bless renews them.
+#include "base/files.h"
+#include "gl/context.h"
 #include "protocols/reader/toml_table.h"
 #include "renderer/render.h"
 
-#include "base/files.h"
-#include "gl/context.h"
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 // On smooth height fields, where the depth buffer hides nothing, horizon methods with a cosine
 // weight estimate the very integral that the depth-buffer reference traces.
+#include "base/random.h"
 #include "renderer/reference/depth_reference.h"
 #include "tests/renderer/techniques/limits_fixture.h"
-
-#include "base/random.h"
 
 #include <numbers>
 #include <numeric>

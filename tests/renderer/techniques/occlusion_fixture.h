@@ -1,13 +1,13 @@
 #pragma once
 
+#include "gl/context.h"
+#include "image/image.h"
 #include "renderer/reference/traced.h"
 #include "renderer/scene/proxies.h"
 #include "renderer/scene/quads.h"
 #include "renderer/techniques/occlusion_passes.h"
 #include "renderer/techniques/settings.h"
 
-#include "gl/context.h"
-#include "image/image.h"
 #include <gtest/gtest.h>
 
 #include <memory>

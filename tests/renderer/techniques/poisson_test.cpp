@@ -1,9 +1,9 @@
 // The committed sample sets of VAO++ (renderer/techniques/poisson_sets.h).
+#include "base/files.h"
 #include "renderer/techniques/disc_points.h"
 #include "renderer/techniques/poisson.h"
 #include "renderer/techniques/poisson_sets.h"
 
-#include "base/files.h"
 #include <gtest/gtest.h>
 
 #include <algorithm>

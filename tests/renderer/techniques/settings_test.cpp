@@ -1,6 +1,6 @@
+#include "base/error.h"
 #include "renderer/techniques/settings.h"
 
-#include "base/error.h"
 #include <gtest/gtest.h>
 
 namespace obscura {

@@ -1,9 +1,8 @@
 // What must hold for every row of the technique table.
+#include "base/error.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/render.h"
 #include "tests/renderer/techniques/occlusion_fixture.h"
-
-#include "base/error.h"
 
 #include <algorithm>
 #include <cmath>
