@@ -29,8 +29,8 @@ SlotState stateAfter(const std::string& reason) {
     return reason.starts_with("running") ? SlotState::reserved : SlotState::returned;
 }
 
-// Sidecars say all of it, a journal's first line who it was and with which slot. What is damaged
-// says nothing.
+// A sidecar says all that a record needs; a journal's first line says who it was and with which
+// slot. A damaged file says nothing.
 void addFromJson(const std::string& text, SlotRecord& trace) {
     const json object = json::parse(text, nullptr, false);
     if (!object.is_object())
@@ -179,14 +179,14 @@ void keepDesign(const DataFolder& folder, const Study& study) {
 }
 
 std::vector<SlotRecord> lostFromLedger(const DataFolder& folder) {
-    // First the files, for another presenter writes the ledger before them.
+    // The files are read before the ledger, because another presenter writes the ledger first.
     const std::vector<SlotRecord> traces = tracesIn(folder);
     const std::vector<SlotRecord> history = Ledger(folder.ledger()).history();
     std::vector<SlotRecord> lost;
     for (const SlotRecord& trace : traces)
         if (!knows(history, trace))
             lost.push_back(trace);
-    // Of two sessions with one slot the first gave it back.
+    // Where two sessions had the same slot, the first must have given it back.
     std::stable_sort(lost.begin(), lost.end(), [](const SlotRecord& x, const SlotRecord& y) {
         return std::pair(x.slot, x.state != SlotState::returned) <
                std::pair(y.slot, y.state != SlotState::returned);

@@ -76,12 +76,11 @@ SlotRecord parse(const std::string& text) {
     return record;
 }
 
-// No beginning of a line is JSON: a last line without its end that is was written whole, and lost
-// its line feed to an editor.
+// Whether a last line without line feed is complete. The beginning of a line is never JSON by
+// itself; so where such a line is JSON, it was written whole, and an editor removed its line feed.
 bool isWhole(std::string_view text) { return json::accept(text); }
 
-// Slots are given out one after the other, so the first mention of each comes after those of all
-// below it.
+// Slots are given out one after the other, so each is first mentioned after all lower ones.
 void checkSequence(int slot, int highest, const Place& place) {
     if (slot > highest + 1)
         throw Error(place,

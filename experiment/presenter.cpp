@@ -136,8 +136,8 @@ void Presenter::announce() {
     announced_ = title_;
 }
 
-// Sleeps until there is something. Before that, what is on the screen is known to be there, and a
-// page says whether the keyboard is here.
+// Sleeps until there is input. Before it sleeps, it announces in the window's title what is on the
+// screen, and makes a page show whether this window has the keyboard.
 std::vector<gl::Input> Presenter::inputs() {
     if (sheet_ && focused_ != display_.window().focused())
         showSheet(*sheet_);

@@ -45,7 +45,8 @@ std::vector<Truth> truthsOf(const MatchStudy& study, bool train) {
 double pixelsOf(const ImageSize& size) { return 1.0 * size.width * size.height; }
 double renderCost(const ImageSize& size) { return 0.2 + pixelsOf(size) * 0.7e-6; }
 
-// What is planned for a part of the work is its share of the line, whether all is needed or not.
+// A part of the work takes the share of the progress line that is planned for it, even if less
+// turns out to be needed.
 class Effort {
   public:
     explicit Effort(const MatchProgress& progress) : progress_(progress) {}
@@ -423,7 +424,8 @@ MatchedTechnique Matching::matched(const TechniqueSetting& setting) {
     return technique;
 }
 
-// What is lost before any technique begins: other truths against the one fitted to, on test views.
+// What is lost before any technique begins: the errors on test views of the other truths, against
+// the one that is fitted to.
 std::vector<MatchRow> Matching::truthRows() const {
     std::vector<MatchRow> rows;
     for (const Case& at : cases_)

@@ -197,7 +197,7 @@ void Choosing::timeAll() {
                      });
 }
 
-// Fitted on all training views, measured on all others at full size.
+// Fits the candidate on all training views, and measures it on all others at full size.
 void Choosing::measure(Candidate& candidate) {
     MatchStudy study = study_.match;
     study.test.resize(1); // the fit alone is wanted
@@ -220,8 +220,9 @@ void Choosing::measure(Candidate& candidate) {
     }
 }
 
-// From the candidate `next` on: the first that meets the limits on errors, and those of nearly its
-// cost that do. Ends behind the last that was looked at.
+// Looks at candidates from `next` on and returns the first that meets the limits on errors, and
+// those of nearly the same cost that meet them too. Afterwards `next` is the first candidate that
+// was not looked at.
 std::vector<std::size_t> Choosing::finalists(std::size_t& next) {
     std::vector<std::size_t> found;
     for (; next < choice_.candidates.size(); ++next) {
@@ -240,7 +241,8 @@ std::vector<std::size_t> Choosing::finalists(std::size_t& next) {
     return found;
 }
 
-// As long as a sweep would, on every view; then they stand in their new order.
+// Times the finalists on every view for as long as a sweep would, and puts them into their new
+// order.
 void Choosing::timeAtLength(std::span<const std::size_t> finalists) {
     for (const std::size_t f : finalists)
         choice_.candidates[f].milliseconds = 0;
@@ -266,8 +268,8 @@ void Choosing::timeAtLength(std::span<const std::size_t> finalists) {
         choice_.candidates[finalists[k]] = std::move(order[k]);
 }
 
-// Failure tests, which are quick, and then motion from every view, for all of them at once: the
-// truth of each frame is what takes long.
+// First the failure tests, which are quick; then motion from every view, for all finalists at once,
+// because what takes long is the truth of each frame.
 void Choosing::testSteadiness(std::span<const std::size_t> finalists) {
     std::vector<std::size_t> left;
     for (const std::size_t f : finalists) {

@@ -123,7 +123,8 @@ class Group {
                     frameDone();
                 }
         }
-        // Who ran, ran in the first rounds: what it is compared with is taken from these.
+        // A runner ran in the first rounds until it had finished; what it is compared with is taken
+        // from the same rounds.
         std::vector<TechniqueTime> times;
         for (const Runner& runner : runners_) {
             const std::size_t rounds = runner.pieces.size();
@@ -137,7 +138,7 @@ class Group {
         return times;
     }
 
-    // 0 ... 1, by the runner that has most before it.
+    // The share done, 0 ... 1: the mean over the runners.
     double share() const {
         double sum = 0;
         for (const Runner& runner : runners_)

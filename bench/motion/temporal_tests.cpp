@@ -12,10 +12,11 @@ namespace obscura {
 namespace {
 
 constexpr std::string_view unreal = "unreal change, mean";
-// What the truth's own sampling, once a pixel, makes of a still picture at these sizes; and a
-// change that nobody overlooks.
+// What passes and what fails. The former is the change that sampling once per pixel makes even of
+// the truth at these sizes, the latter a change that nobody overlooks.
 constexpr double steady = 0.01, restless = 0.03;
-// At a jump half-way to what is seen, all that `none` lacks changes: it reads 0.019.
+// What passes at a cut, a jump half-way to what is seen. There everything that `none` lacks changes
+// at once; it reads 0.019.
 constexpr double jumped = 0.025;
 
 constexpr TemporalTest table[] = {

@@ -43,13 +43,13 @@ std::vector<const FailureTestRow*> rowsOf(const std::vector<std::string>& wanted
     return rows;
 }
 
-// Visibility, and what is wrong with it.
+// A finding's picture: visibility, and beside it what is wrong with it.
 Image8 pictureOf(const Finding& finding, double fullColour) {
     return sideBySide(grey(finding.picture), signedError(finding.picture, finding.expected,
                                                          static_cast<float>(fullColour)));
 }
 
-// Visibility by ray tracing, and what is seen.
+// The cell with the truth's picture: visibility by ray tracing, and beside it what is seen.
 StabilityCell truthCell(const FailureTestRow& row, const FailureTest& test,
                         const fs::path& folder) {
     const std::string picture = pictureName(row.about.id, truthName);
@@ -115,7 +115,8 @@ std::vector<StabilityTest> testsOf(const std::vector<StabilityCell>& cells) {
     return tests;
 }
 
-// The truth's own row is what its noise leaves: no technique can be told from perfect below it.
+// The truth has a row of its own, which shows what its noise leaves: a technique below it cannot be
+// told from a perfect one.
 std::vector<StabilityCell> cellsInMotion(const Motion& motion,
                                          const std::vector<TestedTechnique>& tested,
                                          const fs::path& folder, const TemporalProgress& progress) {
@@ -166,7 +167,7 @@ std::vector<StabilityCell> runStability(const StabilityOptions& options,
     const std::vector<const FailureTestRow*> rows = rowsOf(options.tests);
     std::vector<StabilityCell> cells = keptCells(options);
     writeFile(options.folder / "stability.json", options.about);
-    // In motion takes about as long as all else.
+    // The tests in motion take about as long as all others together.
     const double still = options.motion ? (rows.empty() ? 0 : 0.5) : 1,
                  steps = static_cast<double>(rows.size() * (tested.size() + 1)) / still;
     double done = 0;

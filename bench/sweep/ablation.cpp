@@ -36,7 +36,7 @@ std::string spelt(const Named& settings) {
 // One measured cell, and what it must share with others to stand in one table.
 struct Cell {
     std::string settings;
-    std::string culling; // "" where it is off, so that it fits to every kind
+    std::string culling; // "" where it is off, which goes with every kind
     std::size_t samples = 0, variant = 0;
     double milliseconds = 0, rmse = 0;
 };

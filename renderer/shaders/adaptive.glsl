@@ -1,11 +1,11 @@
 // Slices where they are needed, after the adaptive quality of ASSAO (Strugar 2016) and CACAO (AMD
 // 2020): the importance of a block of pixels is the range of a cheap estimate in and around it.
 //
-// Departures: theirs is the range of a first result at full resolution, which they then add taps
-// to; ours is of one slice in the middle of each block of 4 x 4. Slices of unlike directions differ
-// wherever more of them would lessen noise, so that range is of the estimator's variance and not of
-// the picture alone. All pixels of a block have one count: GPUs and SIMD drivers run neighbours
-// together, for as long as the slowest.
+// Departures: they take the range of a first result at full resolution, to which they then add
+// taps; we take that of one slice in the middle of each block of 4 x 4. Slices of unlike directions
+// differ wherever more of them would lessen noise, so that range is of the estimator's variance and
+// not of the picture alone. All pixels of a block have one count: GPUs and SIMD drivers run
+// neighbours together, for as long as the slowest.
 
 const int blockSize = 4; // scale of both passes
 
@@ -13,7 +13,8 @@ ivec2 middleOf(ivec2 block) {
     return min(block * blockSize + blockSize / 2, ivec2(frame.size.xy) - 1);
 }
 
-// Of 3 x 3 blocks' visibility by a single slice: how many slices the middle block's pixels get.
+// How many slices the pixels of the middle one of 3 x 3 blocks get, from the blocks' visibility by
+// a single slice each.
 float slicesFor(sampler2D surveyed, ivec2 block) {
     ivec2 last = textureSize(surveyed, 0) - 1;
     float least = 1.0, most = 0.0;

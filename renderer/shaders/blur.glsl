@@ -21,8 +21,8 @@ float depthWeight(float depth, float expected, float other) {
     return max(0.0, 1.0 - abs(other - expected) * (100.0 / depth));
 }
 
-// Four pixels are fetched at once: those at these places from a corner, as textureGather orders
-// them.
+// Four pixels are fetched at once. These are their places relative to a corner, in the order of
+// textureGather.
 const ivec2 quadPlaces[4] = ivec2[4](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0));
 
 vec2 cornerUv(ivec2 corner) { return vec2(corner + 1) * frame.size.zw; } // amid the four

@@ -30,7 +30,7 @@ void load(sampler2D values, int slot, ivec2 pixel) {
 vec4 blurLine(sampler2D values, ivec2 pixel, ivec2 along) {
     int radius = int(settings.blurRadius), place = int(gl_LocalInvocationIndex);
     // Slot 0 is the pixel `radius` before the group's first. Invocations beyond the border load
-    // too: their neighbours before it are others' neighbours.
+    // too, because pixels inside the border need what they load.
     for (int slot = place; slot < group + 2 * radius; slot += group)
         load(values, slot, pixel + along * (slot - place - radius));
     barrier();

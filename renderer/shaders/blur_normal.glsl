@@ -1,4 +1,5 @@
-// The same blur for techniques that read normals: pixels facing another way are left out too.
+// The blur of blur.glsl for techniques that read normals: pixels facing another way are left out
+// too.
 
 #include "blur.glsl"
 

@@ -5,7 +5,7 @@
 // The pixel, or the nearest one of the border.
 ivec2 insideOf(ivec2 pixel) { return clamp(pixel, ivec2(0), ivec2(frame.size.xy) - 1); }
 
-// Of a pixel that is known to be inside the image.
+// The depth of a pixel that is known to be inside the image.
 float depthInside(ivec2 pixel) { return texelFetch(depthBuffer, pixel, 0).r; }
 
 float depthOf(ivec2 pixel) { return depthInside(insideOf(pixel)); }

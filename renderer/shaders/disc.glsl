@@ -16,8 +16,9 @@ Disc discOf(vec3 centre, float radius, ivec2 pixel) {
     float a = -1.0 / (side + axis.z), b = axis.x * axis.y * a;
     vec3 first = vec3(1.0 + side * axis.x * axis.x * a, side * b, -side * axis.x);
     vec3 second = vec3(b, side + axis.y * axis.y * a, -axis.y);
-    // The tile's vectors have sixteen evenly spaced heights, which make the turn, and azimuths that
-    // make the shift; by their azimuths, golden angles too, discs would be turned onto each other.
+    // The turn comes from the heights of the tile's sixteen vectors, which are evenly spaced, and
+    // the shift from their azimuths. Azimuths cannot make the turn: they are golden angles, as
+    // those between taps are, so that turned discs would fall onto each other.
     vec3 random = tileDirection(pixel);
     float angle = 3.14159265 * random.z + 6.28318531 * unitFloat(hash(uint(frame.seed.x) + 1u));
     vec2 turn = radius * vec2(cos(angle), sin(angle));

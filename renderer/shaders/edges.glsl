@@ -25,7 +25,8 @@ struct Weights {
     float sum;
 };
 
-// `last` is the last of the passes: it keeps more of the pixel itself (XeGTAO's 1.2 against 0.24).
+// `last` says that this is the last of the passes, which keeps more of the pixel itself (XeGTAO's
+// 1.2 against 0.24).
 Weights weightsOf(ivec2 pixel, bool last) {
     ivec2 corner = ivec2(frame.size.xy) - 1;
     vec4 l = edgesOf(ivec2(max(pixel.x - 1, 0), pixel.y)),
@@ -46,7 +47,7 @@ Weights weightsOf(ivec2 pixel, bool last) {
     return Weights(own, side, diagonal, own + dot(side + diagonal, vec4(1.0)));
 }
 
-// Of what has one channel. Texels come by four around the pixel's corners, in the order of
+// Filters what has one channel. Texels come by four around the pixel's corners, in the order of
 // textureGather: upper left, upper right, lower right, lower left.
 vec4 denoised(sampler2D values, ivec2 pixel, bool last) {
     if (isEmpty(depthOf(pixel)))
@@ -64,7 +65,7 @@ vec4 denoised(sampler2D values, ivec2 pixel, bool last) {
         weights.sum);
 }
 
-// Of what has four, and is 0 but for red where nothing is seen.
+// Filters what has four channels, all of which but red are 0 where nothing is seen.
 vec4 denoisedAll(sampler2D values, ivec2 pixel, bool last) {
     if (isEmpty(depthOf(pixel)))
         return vec4(1.0, 0.0, 0.0, 0.0);

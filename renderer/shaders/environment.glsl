@@ -16,7 +16,7 @@ vec3 harmonicSum(vec3 n, vec3 orders) {
     return max(sum, vec3(0.0));
 }
 
-// On a surface with this normal.
+// The irradiance on a surface with this normal.
 vec3 irradianceAt(vec3 normal) { return harmonicSum(normal, vec3(1.0)); }
 
 // The radiance whose cosine-weighted integral that is: each order divided by the cosine lobe's

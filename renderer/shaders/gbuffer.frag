@@ -16,7 +16,7 @@ layout(location = 3) out vec4 occlusionNormalOut;
 vec3 shadingNormal() {
     vec3 n = normalize(viewNormal);
     vec3 across = viewTangent.xyz - n * dot(n, viewTangent.xyz);
-    // Where the loader found no direction for the map's x, there is no map.
+    // Where the loader found no direction for the map's x, the normal map is not used.
     if (surface.w > 0.0 && dot(across, across) > 1e-8) {
         vec3 mapped = texture(normalMap, materialUv).xyz * 2.0 - 1.0;
         mapped.xy *= surface.w;
@@ -26,7 +26,7 @@ vec3 shadingNormal() {
     return gl_FrontFacing ? n : -n;
 }
 
-// On the side that is seen.
+// The triangle's normal on the side that is seen.
 vec3 faceNormal() {
     vec3 n = normalize(cross(dFdx(viewPlace), dFdy(viewPlace)));
     return dot(n, viewPlace) > 0.0 ? -n : n;

@@ -1,4 +1,4 @@
-// Two numbers per pixel that neighbours have in common as little as possible: the R2 sequence
+// Two numbers for each pixel, as unlike those of its neighbours as possible: the R2 sequence
 // (Roberts 2018) dealt along a Hilbert curve of 64 x 64 pixels, so that pixels near each other are
 // near in the sequence, whose successive members are spread evenly (XeGTAO).
 

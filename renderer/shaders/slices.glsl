@@ -147,10 +147,10 @@ float reachTo(Point p, vec3 end, vec2 step) {
     return -end.z > frame.depth.x ? dot(moved * p.pixelsPerView, step) : 1e6;
 }
 
-// Pixels along both sides of a slice, first the one that `side` points to, as far as a sphere of
-// the radius can be seen, exactly: its silhouette lies at asin(radius / distance) from the view.
-// And no farther than the screen, beyond which nothing is known: that is open. Below 1: nothing to
-// see.
+// How many pixels there are along both sides of a slice, first the one that `side` points to, out
+// to the exact silhouette of a sphere of the radius, which lies at asin(radius / distance) from the
+// view. They end at the screen's border: beyond it nothing is known and everything counts as open.
+// Below 1 there is nothing to see.
 vec2 reachesOf(Point p, Slice slice) {
     vec3 across = slice.side * p.reach;
     vec2 reaches = vec2(reachTo(p, p.position + across, slice.step),

@@ -12,7 +12,7 @@ layout(location = 0) out vec4 visibilityOut;
 
 const float tolerance = 0.01; // of depth, at which a neighbour's weight has fallen to a quarter
 
-// Of the two sides the flatter: the other may lie across an edge.
+// The change to the flatter of the two sides, because the other may lie across an edge.
 float slope(float centre, float before, float after) {
     float down = centre - before, up = after - centre;
     return abs(down) < abs(up) ? down : up;
@@ -20,7 +20,8 @@ float slope(float centre, float before, float after) {
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    // Of the quads whose upper right and lower left corner the pixel is.
+    // Depths of two quads: the pixel is the upper right corner of the first and the lower left
+    // corner of the second.
     vec4 before = textureGather(depthBuffer, vec2(pixel) * frame.size.zw);
     vec4 after = textureGather(depthBuffer, vec2(pixel + 1) * frame.size.zw);
     float depth = after.w;
@@ -28,7 +29,7 @@ void main() {
         visibilityOut = vec4(1.0);
         return;
     }
-    // Inverse depths, as parts of the pixel's own.
+    // Inverse depths, relative to the pixel's own.
     vec4 sides = depth / vec4(before.x, after.z, before.z, after.x);
     vec2 slopes = vec2(slope(1.0, sides.x, sides.y), slope(1.0, sides.z, sides.w));
     vec2 place = vec2(pixel - factor / 2) / float(factor); // in picked pixels

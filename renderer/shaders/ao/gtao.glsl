@@ -72,7 +72,8 @@ vec3 leanOf(Point p, Slice slice, float direction, vec2 horizon) {
     return lean.x * direction * slice.side + lean.y * p.view;
 }
 
-// The minimum is one of the final visibility, 1 - intensity (1 - v) to the power: what v gives it?
+// The minimum is meant for the final visibility, (1 - intensity (1 - v))^power. It becomes the
+// bound of v that gives it.
 float atLeastMinimum(float v) {
     float least = pow(settings.minimumVisibility, 1.0 / settings.power);
     return max(v, 1.0 - (1.0 - least) / max(settings.intensity, 1e-6));
@@ -141,9 +142,9 @@ vec4 denoisedGather(ivec2 pixel) {
                                   : texelFetch(denoiseThriceResult, pixel, 0);
 }
 
-// What the ambient light, which the composite takes from the normal's side, lacks of the light
-// around the mean open direction. Both times the final visibility, so that the sum is never
-// negative.
+// The light to add: the ambient light around the mean open direction less that around the normal,
+// which the composite adds by itself. Both are multiplied by the final visibility, so that the sum
+// is never negative.
 vec4 bentLight(ivec2 pixel) {
     vec4 denoised = denoisedGather(pixel);
     float v = denoised.r;

@@ -40,9 +40,9 @@ vec4 detail(ivec2 pixel) {
 vec4 detailAcross(ivec2 pixel) { return blurAlong(detailResult, pixel, ivec2(1, 0), 1); }
 vec4 detailDown(ivec2 pixel) { return blurAlong(detailAcrossResult, pixel, ivec2(0, 1), 1); }
 
-// Joint bilateral upsampling by depth and normal, for without the latter creases that face the eye
-// turn to stairs: of the one, two or four half-resolution pixels around, those on the pixel's own
-// surface. Where none is, the small rest of each weight leaves their mean.
+// Joint bilateral upsampling: of the one, two or four half-resolution pixels around, it takes those
+// on the pixel's own surface, as depth and normal tell. (By depth alone, creases that face the eye
+// would turn to stairs.) Where none lies there, the small constant in each weight gives their mean.
 float upsampledCoarse(ivec2 pixel, float depth, bool blurred) {
     vec2 slope = depthSlope(pixel, depth);
     vec3 normal = normalOf(pixel);

@@ -49,7 +49,8 @@ Disc discOf(Ball ball) {
                 stretch * tileRotation(ball.pixel));
 }
 
-// The pixel that shows a point of the disc. Clamped first: a whole number cannot hold any float.
+// The pixel that shows a point of the disc. It is clamped as a float, because an integer cannot
+// hold every float.
 ivec2 discPixel(Disc disc, int i) {
     return ivec2(clamp(disc.centre + disc.fromUnit * points[i].xy, vec2(0.0), frame.size.xy - 1.0));
 }
@@ -102,9 +103,9 @@ vec4 cull(ivec2 cell) {
     return vec4(isEmpty(depth) ? 1.0 : openFraction(ballOf(pixel, depth), 8));
 }
 
-// Bilinear reads at the corners of the cell: together the nine cells around, 24 x 24 pixels. One
-// cell's occlusion from 1/256 on is seen. All of the cell's pixels would find the same, so it is
-// found once.
+// Whether anything may occlude the pixels of a cell. Bilinear reads at its four corners take in the
+// nine cells around, 24 x 24 pixels; an occlusion of 1/256 in one of them is enough. It is done
+// once per cell, because all of its pixels would find the same.
 vec4 mayOcclude(ivec2 cell) {
     vec2 texel = 1.0 / vec2(textureSize(cullResult, 0));
     float least = 1.0;
@@ -114,8 +115,8 @@ vec4 mayOcclude(ivec2 cell) {
     return vec4(least < 1.0 - 1.0 / 1024.0 ? 1.0 : 0.0);
 }
 
-// Lines after both savings. The careful pre-pass spends four on what it finds open, whatever the
-// quality, the greedy one none.
+// How many lines are left by both savings. For what the pre-pass finds open, the careful kind of
+// culling still spends four, whatever the quality, and the greedy one none.
 int linesFor(ivec2 pixel, Ball ball) {
     if (settings.culling < 0.5 || texelFetch(mayOccludeResult, pixel >> 3, 0).r > 0.5)
         return lineCount(ball);
@@ -201,8 +202,9 @@ vec4 tint(ivec2 pixel) {
 
 vec4 tintAcross(ivec2 pixel) { return filtered(tintResult, pixel, ivec2(1, 0)); }
 
-// The tint multiplies ambient light times visibility, of which the frame has all but the change.
-// That visibility is the one after `intensity` and `power`, which the last pass puts on red alone.
+// The tint multiplies the product of ambient light and visibility. The composite adds that product
+// by itself, so that only its change is given here. The visibility meant is that after `intensity`
+// and `power`, which the last pass applies to red alone.
 vec4 bleed(ivec2 pixel) {
     if (isEmpty(depthOf(pixel)))
         return vec4(1.0, 0.0, 0.0, 0.0);
