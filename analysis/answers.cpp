@@ -84,8 +84,8 @@ void removeRehearsals(Answers& answers) {
                                 answers.leftOut.rehearsed, answers.files));
 }
 
-// Texts may differ. Where a row is of a version that kept no design, the same protocol file proves
-// it the same.
+// Rows may differ in their texts, but not in their design. Rows of a version that kept no design
+// count as of the same one if they come from the same protocol file.
 bool sameDesign(const Response& x, const Response& y) {
     const bool known = !x.designSha256.empty() && !y.designSha256.empty();
     return known ? x.designSha256 == y.designSha256 : x.protocolSha256 == y.protocolSha256;

@@ -9,7 +9,8 @@
 
 namespace obscura {
 
-// p below this is called a difference. Uncorrected: the summary says what that means.
+// A p below this is called a difference. It is not corrected for the number of tests; the summary
+// says what that means.
 constexpr double significance = 0.05;
 
 // All that one run of the analysis found; the terminal, the CSV and the report show the same.

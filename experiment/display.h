@@ -29,7 +29,7 @@ class Display {
     // the picture is larger than the screen: nothing is ever scaled.
     void warmUp(const gl::Picture& picture);
 
-    // The time at which it came on. Nothing: grey alone.
+    // Shows the picture, or grey alone without one, and returns the time at which it came on.
     double show(const gl::Picture* picture);
 
   private:

@@ -19,7 +19,7 @@ namespace obscura {
 // Rows of conditions, counted from 0: each condition once in every row and every column.
 using LatinSquare = std::vector<std::vector<int>>;
 
-// Row r is r, r + 1, ... in a circle.
+// The square whose row r is r, r + 1, ..., going round in a circle.
 LatinSquare cyclicSquare(int conditions);
 
 // The cyclic square with its rows, columns and conditions permuted at random. This does not draw

@@ -18,8 +18,8 @@ using MatchProgress = std::function<void(double done, double total, const std::s
 // Fits every technique of a study on its training views, and measures raw and fitted settings on
 // all. References come from `cache` (renderer/reference/reference_cache.h). Each technique's result
 // is kept in `folder`/finished as soon as there is one, and taken from there when all that it
-// depends on is the same. Writes `folder`/matched.toml, match.csv and match.png last. Errors are of
-// renderings with the very numbers that the fragment gives.
+// depends on is the same. Writes `folder`/matched.toml, match.csv and, last, match.png or pages of
+// it. Errors are of renderings with the very numbers that the fragment gives.
 MatchResult match(const MatchStudy& study, const Folders& folders,
                   const std::filesystem::path& folder, const std::filesystem::path& cache,
                   const gl::Driver& driver, const MatchProgress& progress);

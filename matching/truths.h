@@ -11,7 +11,8 @@ namespace obscura {
 
 // What techniques are compared with on a view, made once and kept in the cache of references.
 
-// A scene's triangles to trace, made when a truth is not in the cache. The scene must outlive it.
+// A ray tracer of a scene that is made only when a truth is not in the cache. The scene must
+// outlive it.
 class LazyTracer {
   public:
     explicit LazyTracer(const Scene& scene) : scene_(scene) {}
@@ -38,7 +39,7 @@ Image truthOf(Truth truth, const TruthInputs& inputs, const Probe& probe, LazyTr
 // "cosine", the name in tables.
 std::string nameOf(Truth truth);
 
-// Seconds that it takes on two cores, roughly.
+// Roughly how many seconds a truth takes on two cores.
 double truthCost(const ImageSize& size, int rays);
 
 } // namespace obscura

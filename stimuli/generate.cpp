@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* manifestName = "manifest.json";
-// What an interrupted run leaves: the same, of the pairs that were finished.
+// What an interrupted run leaves: a manifest of the pairs that were finished.
 constexpr const char* unfinishedName = "unfinished-manifest.json";
 
 double seconds() {
@@ -76,7 +76,7 @@ std::span<const std::string> channelNames(int count) {
                : std::span<const std::string>(colours).first(static_cast<std::size_t>(count));
 }
 
-// Also where a number is none.
+// Compares bits, so that a NaN equals itself.
 bool sameBits(const Image& a, const Image& b) {
     return a.pixels.size() == b.pixels.size() &&
            std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
@@ -153,7 +153,7 @@ PairRecord emptyPair(const Protocol& protocol, const Condition& condition) {
     return pair;
 }
 
-// Each once, with the scene it is about.
+// Adds each warning once, with the scene that it is about.
 void addWarnings(std::vector<std::string>& all, const std::string& scene,
                  const std::vector<std::string>& found) {
     for (const std::string& warning : found)
@@ -182,7 +182,8 @@ std::string nameOf(const PairRecord& pair, int member) {
     return fmt::format("condition \"{}\", image {}", pair.condition, member == 0 ? "a" : "b");
 }
 
-// What another program or driver may leave as it is: the pixels decide.
+// Whether the difference between two recipes may leave the image as it is. If so, the pixels
+// decide.
 bool decidedByPixels(const std::string& difference) {
     return difference.starts_with("codeSha256: ") || difference.starts_with("shaderSha256: ") ||
            difference.starts_with("programVersion: ");

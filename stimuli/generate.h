@@ -24,11 +24,12 @@ struct GenerateResult {
 using Announce = std::function<void(int done, int total, const std::string& file)>;
 
 // Carries out a protocol's plan into `folder`: a PNG per image and one of its visibility,
-// with `layers` also linear EXRs ("linear", "visibility", "albedo", "depth", "normal"); then
-// contact-sheet.png; last manifest.json. An image is kept when the manifest of an earlier run, also
-// of an interrupted one, proves that the same recipe made the very bytes on disk, those of its
-// layers included; what has EXRs keeps them, also when it is made anew. The members of a pair must
-// have equal inputs before occlusion, or nothing is published: an Error. `code` is what renders.
+// with `layers` also linear EXRs ("linear", "visibility", "albedo", "depth", "normal"); then the
+// contact sheet, contact-sheet.png or pages of it; last manifest.json. An image is kept when the
+// manifest of an earlier run, also of an interrupted one, proves that the same recipe made the very
+// bytes on disk, those of its layers included; an image that has EXRs keeps having them, also when
+// it is made anew. The members of a pair must have equal inputs before occlusion, or nothing is
+// published: an Error. `code` is the hash of what renders.
 GenerateResult generate(const Protocol& protocol, const Folders& folders,
                         const std::filesystem::path& folder, bool layers, const gl::Driver& driver,
                         const Announce& announce, std::string_view code = imageCode());

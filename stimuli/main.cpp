@@ -42,7 +42,8 @@ void report(const GenerateResult& result, const fs::path& folder) {
                    pair.b.meanOcclusion, pair.a.inputsSha256);
 }
 
-// A line for each technique: what fitting it was worth, on views that it was not fitted on.
+// Prints a line for each technique: how much fitting has improved it on views that it was not
+// fitted on.
 void report(const MatchStudy& study, const MatchResult& result, const fs::path& folder) {
     for (const std::string& warning : result.warnings)
         fmt::print(stderr, "warning: {}\n", warning);

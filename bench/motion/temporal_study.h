@@ -10,7 +10,7 @@
 
 namespace obscura {
 
-// What is shown in motion, and how much of it (temporal.h).
+// What the tests in motion (temporal.h) show, and how much of it.
 
 // How much is drawn.
 struct TemporalEffort {
@@ -32,7 +32,7 @@ struct TemporalStudy {
 // The name of the 99th percentile of the headline among the cells' measures.
 inline constexpr std::string_view unrealChange99 = "unreal change, 99th percentile";
 
-// The measure of a run's one cell whose picture moves (temporal_animation.h).
+// The measure of the only cell of a run whose picture moves (temporal_animation.h).
 inline constexpr std::string_view worstFlicker = "the worst flicker of the run";
 
 } // namespace obscura

@@ -6,7 +6,8 @@
 
 namespace obscura {
 
-// Where methods fail, in numbers: what the stability tests measure, as it stands in stability.csv.
+// The numbers of the stability tests, which show where methods fail, as they stand in
+// stability.csv.
 
 // A failure test: one column of the heat map. Values are errors: 0 is perfect, the sign says which
 // way (docs/stability.md), NaN that a technique has no answer.

@@ -32,7 +32,7 @@ Scene rodScene();
 Camera rodCamera();
 
 // A floor at y = 0 and a step of 2 radii whose upright face, at x = 0, the camera above it sees
-// exactly on edge: not at all.
+// exactly edge-on, and so does not see.
 Scene curbScene();
 Camera curbCamera();
 

@@ -11,8 +11,9 @@ namespace obscura {
 
 // How cost grows, one thing at a time: with samples, radius, pixels, and silhouettes.
 
-// A wall 10 m away and `poles` thin upright poles scattered before it, the same ones first: the
-// more of them, the more depth edges. `poleFieldCamera` sees it from the origin.
+// A wall 10 m away and `poles` thin upright poles scattered before it; a scene of more poles has
+// all poles of a scene of fewer. The more poles, the more depth edges. `poleFieldCamera` sees it
+// from the origin.
 Scene poleField(int poles);
 Camera poleFieldCamera();
 

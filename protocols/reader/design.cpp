@@ -11,8 +11,8 @@ namespace {
 
 using nlohmann::json;
 
-// Each struct is taken apart into all its fields: one that is added does not compile before it has
-// found its part.
+// Each struct is taken apart into all its fields, so that a new field does not compile until it has
+// been given to one of the parts.
 
 json toJson(const Camera& camera) {
     const auto& [position, target, up, fovDegrees, near] = camera;
@@ -85,7 +85,7 @@ json toJson(const Texts& texts) {
     return words;
 }
 
-// Conditions by their ids, since their order is no matter of the pictures.
+// Conditions are kept by their ids, because pictures do not depend on their order.
 struct SplitConditions {
     json stimuli = json::object(), simulated = json::object(), order = json::array();
     std::set<std::string> views, levels, techniques; // used
@@ -106,7 +106,7 @@ SplitConditions split(const std::vector<Condition>& conditions) {
     return result;
 }
 
-// What is declared, by name, into the part of what is used, or else of what is not.
+// Puts what is declared, by name, into the part for what conditions use or into that for the rest.
 template <typename T>
 void split(const std::vector<T>& items, const std::set<std::string>& used, const char* key,
            json& ifUsed, json& otherwise) {

@@ -77,7 +77,8 @@ void parseViews(TomlTable& root, MatchStudy& study) {
                                     "neither");
 }
 
-// The radius is each view's, and the same for all: else errors could not be compared.
+// No technique may have its own radius. All take that of the view, or their errors could not be
+// compared.
 void checkTechniques(const MatchStudy& study) {
     for (const TechniqueSetting& technique : study.techniques)
         for (const Setting& setting : technique.settings)

@@ -79,7 +79,8 @@ Level parseLevel(const std::string& name, TomlTable table) {
 
 namespace {
 
-// One member of a pair: a technique's name. A table could only say what must not differ.
+// One member of a pair: a technique's name. It is no table, because a table could only say things
+// that must not differ.
 std::string parseMember(TomlTable& condition, const toml::node& node, std::size_t index,
                         const Protocol& protocol) {
     const std::string path = fmt::format("{}[{}]", condition.pathOf("pair"), index + 1);
@@ -179,7 +180,7 @@ Ordering parseOrdering(TomlTable table) {
     return ordering;
 }
 
-// Braces that stand around no number's name are a misspelt one.
+// Braces around anything but the name of a number are a mistake in spelling.
 void checkProgress(const std::string& text, const Place& place) {
     static const std::regex numbers(R"(\{pairs?\})");
     if (std::regex_replace(text, numbers, "").find_first_of("{}") != std::string::npos)

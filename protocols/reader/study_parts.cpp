@@ -40,8 +40,8 @@ Camera parseCamera(TomlTable table) {
     return camera;
 }
 
-// The techniques of one file, `root` being its whole. A name that is taken is an error that says
-// where it was given first.
+// Adds the techniques of one file, whose top table is `root`. A name that is taken already is an
+// Error that says where it was given first.
 void addTechniques(TomlTable& root, std::vector<TechniqueSetting>& techniques, Lists lists) {
     for (auto& [name, table] : root.tables("techniques", "at least one technique, "
                                                          "[techniques.NAME]")) {
@@ -58,7 +58,7 @@ void addTechniques(TomlTable& root, std::vector<TechniqueSetting>& techniques, L
     }
 }
 
-// A file of techniques alone; gives its text's hash.
+// Reads a file of techniques alone and returns the hash of its text.
 std::string includeFile(const PlacedText& included, const std::filesystem::path& folder,
                         std::vector<TechniqueSetting>& techniques, Lists lists) {
     const std::string file = (folder / included.text).string();
@@ -105,7 +105,7 @@ View parseView(const std::string& name, TomlTable table, bool withRadius) {
 
 namespace {
 
-// One key's value, in a list or alone.
+// Gives the setting one value of a key, which may come from a list.
 void give(TechniqueSetting& setting, const TomlTable& table, const std::string& key,
           const toml::node& value) {
     const Place place = table.placeOf(value, table.pathOf(key));
@@ -124,7 +124,7 @@ void give(TechniqueSetting& setting, const TomlTable& table, const std::string& 
     setting.settings.push_back({key, number, table.placeOf(key)});
 }
 
-// Each of `settings` with each value of a list.
+// Every combination of one of `settings` with one value of a list.
 std::vector<TechniqueSetting> varied(const std::vector<TechniqueSetting>& settings,
                                      const TomlTable& table, const std::string& key,
                                      const toml::array& values) {

@@ -25,7 +25,7 @@ TechniqueSetting parseTechnique(const std::string& name, TomlTable table);
 std::vector<TechniqueSetting> parseVariants(const std::string& name, TomlTable table);
 
 // All techniques of a study: those of the files that its `include` names (relative to the study's
-// folder), then its own. No two have one name.
+// folder), then its own. No two may have the same name.
 struct Techniques {
     std::vector<TechniqueSetting> techniques;
     std::string includedSha256; // of each included file, one after the other
@@ -43,7 +43,7 @@ MatchStudy parseComparison(TomlTable& root, Lists lists, std::string& includedSh
 struct ImageSize;
 ImageSize parseSize(TomlTable table);
 
-// Of a study's text and what it includes; without that, of the text alone.
+// The hash of a study's text and of what it includes; of the text alone where it includes nothing.
 std::string studySha256(const std::string& text, const std::string& includedSha256);
 
 Normals parseNormals(TomlTable& root);

@@ -2,7 +2,8 @@
 
 #include "renderer/scene/scene.h"
 
-// The makers of the scenes that builtin.h offers; their sha256 is left empty.
+// The makers of the scenes that builtin.h offers; they leave its sha256 empty, which builtinScene()
+// fills in.
 namespace obscura::builtin {
 
 Scene sculpture();

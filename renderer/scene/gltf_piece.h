@@ -17,10 +17,11 @@ struct Piece {
 // The unit vector, or zero where there is no direction: of zero, and of what is not finite.
 glm::vec3 direction(const glm::dvec3& v);
 
-// glTF: without normals, every triangle is flat.
+// Gives every triangle its own flat normal, as glTF asks where a primitive has none.
 void makeFlat(Piece& piece);
 
-// Normals that are no direction become those of the triangles around; how many there were.
+// Replaces normals that are no direction by those of the triangles around. Returns how many there
+// were.
 std::size_t mendNormals(Piece& piece);
 
 // Far from zero, texture coordinates lose their digits, and shaders bound them (material.glsl):

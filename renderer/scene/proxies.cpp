@@ -10,7 +10,8 @@ namespace obscura {
 
 namespace {
 
-// Part of a triangle, small against the spheres: whoever contains its corners contains it all.
+// A part of a triangle, small against the spheres. A sphere that contains its corners contains all
+// of it.
 struct Piece {
     glm::vec3 corners[3];
     glm::vec3 normal;
@@ -159,7 +160,7 @@ std::size_t split(std::span<Piece> pieces) {
     return static_cast<std::size_t>(second - pieces.begin());
 }
 
-// Spheres end up larger by the margin.
+// Spheres are made larger by the margin in the end.
 bool contains(const Sphere& sphere, std::span<const Piece> pieces) {
     const float squared = sphere.radius * sphere.radius * (1 + margin) * (1 + margin);
     for (const Piece& piece : pieces)
@@ -169,7 +170,7 @@ bool contains(const Sphere& sphere, std::span<const Piece> pieces) {
     return true;
 }
 
-// Without those whose pieces a larger one contains as well.
+// Leaves out spheres whose pieces a larger one contains as well.
 std::vector<glm::vec4> withoutSpare(const std::vector<Cluster>& clusters) {
     std::vector<glm::vec4> spheres;
     for (const Cluster& cluster : clusters)

@@ -62,7 +62,7 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     std::vector<Texture> textures;
-    std::string sha256;                // of every file read; of name and version when built in
+    std::string sha256;                // of every file read; when built in, of all it consists of
     std::vector<std::string> warnings; // what the file uses and we do not show
 
     Bounds bounds() const; // of the positions; of the origin for an empty scene
@@ -81,8 +81,8 @@ std::string sceneSha256(const std::filesystem::path& path);
 // Vertices without a usable direction get none: zero.
 void deriveTangents(Scene& scene, const Mesh& mesh);
 
-// Sets tangents that are no direction, or the normal's, to zero, which shaders take for "no normal
-// map here"; how many of the mesh's vertices have none.
+// Sets tangents to zero that are no direction or point along the normal; shaders take zero for "no
+// normal map here". Returns how many of the mesh's vertices have no tangent.
 std::size_t dropUnusableTangents(Scene& scene, const Mesh& mesh);
 
 } // namespace obscura
