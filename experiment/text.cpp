@@ -193,7 +193,7 @@ void Setter::paragraph(const std::string& text, double size, bool bold) {
     y += lines.height;
 }
 
-// Of what is too long for the field, the end is seen.
+// Of a text that is too long for the field, the end is shown.
 void Setter::field(const std::string& typed) {
     const double fieldWidth = std::min(18 * em_, column()), height = 2.2 * em_;
     const double x = (width_ - fieldWidth) / 2;

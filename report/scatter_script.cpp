@@ -93,8 +93,8 @@ std::string seriesPlot(std::size_t index) {
          format("$t{} using 1:2 with points {} notitle", index, plot::pointStyle(index))});
 }
 
-// What is free has no logarithm: it stands at the left edge, at half of the least time that is not.
-// `low` of infinity: nothing took any time.
+// What takes no time has no logarithm and stands at the left edge, at half of the least time above
+// 0. Where nothing took any time, `low` is infinity.
 double freeTime(const Scatter& scatter) {
     double least = std::numeric_limits<double>::infinity();
     for (const ScatterPoint& point : scatter.points)

@@ -51,8 +51,8 @@ std::string limitsOf(const Budget& budget) {
     return text;
 }
 
-// The candidates that would add something: on the front at a glance beyond the chosen one, but for
-// those that were measured and failed.
+// The candidates that would add something: those beyond the chosen one on the front at a glance,
+// except for those that were measured and failed.
 std::vector<const Candidate*> dearer(const Choice& choice) {
     std::vector<const Candidate*> result;
     double best = choice.candidates[*choice.chosen].glanceRmse;
@@ -98,7 +98,7 @@ std::string table(const Choice& choice) {
     return text;
 }
 
-// What is free has no logarithm: it stands at the chart's left edge.
+// A candidate that takes no time has no logarithm and stands at the chart's left edge.
 std::string line(const Candidate& candidate, double least) {
     std::vector<double> rmse;
     for (const ViewResult& view : candidate.views)

@@ -16,8 +16,8 @@ std::string programName();
 // Hash of the benches' own code (code_hash.cmake).
 std::string_view measuringCode();
 
-// What times are times of: driver, processor, the GPU's clocks where nvidia-smi tells them, else
-// the processor's, program and date; `study` is the hash of the study's text.
+// What times were measured on and when: driver, processor, the GPU's clocks where nvidia-smi tells
+// them, else the processor's, program and date; `study` is the hash of the study's text.
 SweepMachine machineOf(const gl::Driver& driver, const gl::TimingChoice& timing,
                        const std::string& study);
 

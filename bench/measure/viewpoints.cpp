@@ -44,8 +44,8 @@ Camera around(const Bounds& bounds, Random& random) {
     return camera;
 }
 
-// Higher is better; below 0 the view is of no use. Much surface, none of it against the lens, and
-// occlusion that varies: what a technique can get wrong.
+// Higher is better; below 0 the view is of no use. A good view shows much surface, none of it
+// against the lens, and occlusion that varies, because that is what a technique can get wrong.
 double interest(const Subject& subject, const RayTracer& tracer, const Camera& camera,
                 double radius) {
     const Probe probe(subject, camera, width, height, Normals::smooth, 1);

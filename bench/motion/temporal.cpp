@@ -109,7 +109,8 @@ class Measurement {
         for (int frame = 0; frame < study_.effort.frames; ++frame) {
             tell(test, frame);
             const Camera camera = cameraOf(test, frame);
-            // The same view again is the same picture: no technique remembers.
+            // The same view gives the same picture again, because no technique remembers earlier
+            // frames.
             if (last && sameView(camera, cameraOf(test, frame - 1)))
                 continue;
             Shot shot = takeInMotion(camera);

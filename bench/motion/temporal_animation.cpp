@@ -21,7 +21,7 @@ struct Choice {
     std::size_t worst = 0, best = 0; // configurations
 };
 
-// Those of a record that are considered, the most steady one first.
+// The configurations of a record that are considered, the steadiest first.
 std::vector<std::size_t> ranked(const TemporalStudy& study, const MotionRecord& record) {
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < study.configurations.size(); ++i)

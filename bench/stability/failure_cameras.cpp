@@ -95,7 +95,7 @@ class FarDepthTest : public FailureTest {
     struct Place {
         std::string name;
         Selection plane, crease;
-        bool counts; // farther away fewer bits leave nothing of any scene
+        bool counts; // false so far away that fewer bits leave nothing of any scene
     };
     FailureScene scene_;
     std::deque<FailureView> views_;

@@ -186,7 +186,8 @@ std::string machineJson(const SweepMachine& machine) {
     return root.dump(2) + "\n";
 }
 
-// What must be equal of a text: of the method what it is, not the times by which it was chosen.
+// The part of a text that must be equal: of the method its name, not the times by which it was
+// chosen.
 std::string keptEqual(const std::string& name, const std::string& value) {
     return name == "method" ? value.substr(0, value.find(':')) : value;
 }

@@ -56,7 +56,7 @@ struct GrowthRow {
     double milliseconds = 0;
 };
 
-// What the times are times of; stands in sweep.json.
+// What the times were measured on, and how, as it stands in sweep.json.
 struct SweepMachine {
     std::string vendor, renderer, glVersion, processor, clocks; // clocks: "" when unknown
     std::string method; // "timer queries" or "glFinish and steady clock", and why

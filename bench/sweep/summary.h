@@ -11,11 +11,12 @@ namespace obscura {
 
 // What charts and tables show of a sweep.
 
-// One configuration at one scene, resolution and radius, all views taken together: of times,
-// fetches, bytes and ratios the median over views (so the percentiles are those of the frames of a
-// typical view); of RMSE the root of the mean square, of bias the mean size with the sign of the
-// mean (views must not cancel out), of other errors the mean; NaN as soon as one view has none;
-// frames are summed, `view` lists the names, text and thumbnail are the first view's.
+// One configuration at one scene, resolution and radius, all views taken together. Times, fetches,
+// bytes and ratios are medians over views, so that the percentiles are those of the frames of a
+// typical view. RMSE is the root of the mean square; bias is the mean size with the sign of the
+// mean, so that views do not cancel out; other errors are means. An error is NaN as soon as one
+// view has none. Frames are summed, `view` lists the names, and text and thumbnail are the first
+// view's.
 SweepRow overViews(std::span<const SweepRow> rows);
 
 // The rows with their milliseconds as at the view's typical speed. Groups of configurations run one

@@ -156,7 +156,8 @@ void Sweeping::match() {
         configurations_.push_back({technique.setting, technique.fitted});
 }
 
-// Neighbours in a study are much alike, and machines drift: those timed together are drawn by lot.
+// Neighbours in a study are much alike, and machines drift; so those that are timed together are
+// drawn by lot.
 std::vector<std::size_t> Sweeping::missing(const View& view, const ImageSize& size) const {
     std::vector<std::size_t> result;
     for (std::size_t i = 0; i < study_.match.techniques.size(); ++i)

@@ -13,7 +13,7 @@ namespace {
 
 glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
-// Beyond every corner of the scene, so that no surface is taken for an empty pixel.
+// A depth beyond every corner of the scene, so that no surface is taken for an empty pixel.
 double emptyDepth(const glm::dmat4& viewFromWorld, const Bounds& bounds, double near) {
     double farthest = near;
     for (int corner = 0; corner < 8; ++corner) {

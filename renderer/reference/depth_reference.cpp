@@ -13,7 +13,7 @@ namespace {
 // Independent scramblings per pixel, whose spread gives the standard error.
 constexpr int batches = 8;
 
-// Relative: what float arithmetic leaves of a ray along a plane.
+// The relative error that float arithmetic leaves in a ray along a plane.
 constexpr float tolerance = 2e-6f;
 
 // A ray in pixels and inverse depth, both of which are linear along it on screen.
@@ -105,7 +105,7 @@ class DepthField {
         return between(texel(x, y), texel(x + 1, y), place.x - static_cast<float>(x));
     }
 
-    // Two surfaces that a slab of the thickness does not join stay two.
+    // Two surfaces that a slab of this thickness does not join count as two.
     float between(float a, float b, float share) const {
         if (thickness_ >= 0 && std::abs(a - b) > thickness_ * a * b)
             return share < 0.5f ? a : b;

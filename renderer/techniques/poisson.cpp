@@ -28,8 +28,8 @@ glm::dvec2 printed(glm::dvec2 p) {
     return {std::round(p.x * 1e6) / 1e6, std::round(p.y * 1e6) / 1e6};
 }
 
-// As many points as fit, at most `size`. Points stay half a distance within the rim: one on it
-// would stand for area outside, and its line through the ball has no length.
+// Throws as many points as fit, at most `size`. Points stay half a distance inside the rim, because
+// a point on it would stand for area outside, and its line through the ball has no length.
 std::vector<glm::dvec2> throwDarts(int size, double distance, Random& random) {
     std::vector<glm::dvec2> points, stored; // the latter with all rotations
     for (int dart = 0; dart < attempts && static_cast<int>(points.size()) < size; ++dart) {

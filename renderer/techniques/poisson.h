@@ -16,8 +16,9 @@ namespace obscura {
 constexpr int poissonRotations = 9;
 constexpr int poissonSizes[] = {2, 4, 8, 16, 32};
 
-// One set: dart throwing that keeps every point away from all nine rotations of the others and from
-// its own, then for each point the rotation that spreads the set widest, then z-order.
+// Makes one set. Darts are thrown so that every point stays away from all nine rotations of the
+// others and of itself; then each point takes the rotation that spreads the set widest; then points
+// are put into z-order.
 std::vector<glm::dvec2> poissonSet(int size, std::uint64_t seed);
 
 // The least distance between any two of the nine rotations of all points.

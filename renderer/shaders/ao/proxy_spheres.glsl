@@ -15,8 +15,8 @@
 //   true.
 // - A splat must end somewhere: its effect fades to nothing at `distantReach`. Details end at the
 //   radius.
-// - Fitted spheres enclose patches, and those of a wall's far side count too: `sphereSize` makes
-// up.
+// - Fitted spheres enclose patches, and those of a wall's far side count too; `sphereSize` makes up
+//   for that.
 //
 // Limits: one sphere, far inside all fades: visibility 1 - 2 (1 - sqrt(1 - r^2/d^2)) cos.
 // Infinitely many pixels, bias 0: occlusion proxySize^2 / pi times the integral of cos / d^2 over
