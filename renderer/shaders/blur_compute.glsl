@@ -11,7 +11,8 @@
 
 #include "blur_normal.glsl"
 
-const int group = 128, widest = 32; // pixels; largest blurRadius (rows/obscurance.h)
+// Pixels; the largest blurRadius (renderer/techniques/rows/obscurance.h).
+const int group = 128, widest = 32;
 
 shared float lineDepth[group + 2 * widest];
 shared uint lineNormal[group + 2 * widest];     // x and y, halves as in the normal buffer
