@@ -1,3 +1,4 @@
+#include "base/arguments.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/version.h"
@@ -12,6 +13,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -176,21 +178,19 @@ int simulate(const Arguments& arguments, const Study& study) {
     return 0;
 }
 
-gl::WindowOptions::Size parseSize(const std::string& text) {
-    gl::WindowOptions::Size size{};
-    int read = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%n", &size.width, &size.height, &read) != 2 ||
-        read != static_cast<int>(text.size()) || size.width < 1 || size.height < 1)
+gl::WindowOptions::Size sizeOf(const std::string& text) {
+    const auto size = parsePair(text, 'x');
+    if (!size || std::max(size->first, size->second) > 16384)
         throw Error(
             fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"", text));
-    return size;
+    return {size->first, size->second};
 }
 
 gl::WindowOptions windowOptions(const Arguments& arguments) {
     gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt, throwIfEnded};
     if (arguments.windowed)
         options.windowed = arguments.windowSize.empty() ? gl::WindowOptions::Size{1280, 800}
-                                                        : parseSize(arguments.windowSize);
+                                                        : sizeOf(arguments.windowSize);
     return options;
 }
 

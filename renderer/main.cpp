@@ -1,4 +1,4 @@
-#include "base/named_number.h"
+#include "base/arguments.h"
 #include "base/progress.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/reference/reference_cache.h"
@@ -131,10 +131,8 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     if (!options.preset.empty())
         setting.preset = {options.preset, {}};
     for (const std::string& text : options.settings) {
-        const auto given = readNamedNumber(text);
-        if (!given)
-            throw Error(fmt::format("expected --set NAME=NUMBER, found \"{}\"", text));
-        setting.settings.push_back({given->name, given->value, {}});
+        NamedNumber given = parseNamedNumber("--set", text);
+        setting.settings.push_back({std::move(given.name), given.value, {}});
     }
     protocol.techniques.push_back(setting);
     Condition condition;
@@ -235,20 +233,28 @@ int run(int argc, char** argv) {
     app.add_option("--scene", options.scene, "built-in scene or glTF file in the scenes folder")
         ->capture_default_str();
     app.add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
-    app.add_option("--camera", options.camera, "position x y z, target x y z")->expected(6);
-    app.add_option("--fov", options.fovDegrees, "vertical, degrees")->capture_default_str();
+    app.add_option("--camera", options.camera, "position x y z, target x y z")
+        ->expected(6)
+        ->check(numberFrom(-1e9, 1e9));
+    app.add_option("--fov", options.fovDegrees, "vertical, degrees")
+        ->check(numberFrom(1, 170))
+        ->capture_default_str();
     app.add_option("--near", options.near,
                    "where the camera begins to see, metres; default 0.05, or a twentieth of the "
                    "diagonal of a smaller scene")
-        ->check(CLI::Range(1e-7, 1e3));
-    app.add_option("--exposure", options.exposure, "stops")->capture_default_str();
+        ->check(numberFrom(1e-7, 1e3));
+    app.add_option("--exposure", options.exposure, "stops")
+        ->check(numberFrom(-32, 32))
+        ->capture_default_str();
     app.add_option("--level", options.level, "low, moderate or high")
         ->check(CLI::IsMember({"low", "moderate", "high"}))
         ->capture_default_str();
     app.add_option("--technique", options.techniqueId, "id of --list")->capture_default_str();
     app.add_option("--preset", options.preset, "a preset of --describe; --set overrides it");
     app.add_option("--set", options.settings, "NAME=NUMBER, a setting of --describe");
-    app.add_option("--radius", options.radius, "metres")->capture_default_str();
+    app.add_option("--radius", options.radius, "metres")
+        ->check(numberFrom(1e-4, 1e4))
+        ->capture_default_str();
     app.add_option("--width", options.width)->check(CLI::Range(1, 16384))->capture_default_str();
     app.add_option("--height", options.height)->check(CLI::Range(1, 16384))->capture_default_str();
     app.add_option("--antialiasing", options.antialiasing, "jittered frames averaged")

@@ -1,3 +1,4 @@
+#include "base/arguments.h"
 #include "base/progress.h"
 #include "matching/match.h"
 #include "matching/match_files.h"
@@ -110,7 +111,7 @@ int run(int argc, char** argv) {
                          "folder of glTF scenes; default OBSCURA_SCENES");
     matching->add_option("--device", device, "render with this device of obscura-render --devices");
     matching->add_option("--radius", radius, "only this one of the study's radii, metres")
-        ->check(CLI::PositiveNumber);
+        ->check(numberFrom(1e-4, 1e4));
     app.add_option("protocol", protocolPath, "study, TOML");
     app.add_option("--out", out, "stimulus folder; default stimuli-NAME");
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");

@@ -1,7 +1,7 @@
 #include "bench/choose/budget.h"
 
+#include "base/arguments.h"
 #include "base/error.h"
-#include "base/named_number.h"
 
 #include <boost/math/distributions/students_t.hpp>
 #include <fmt/format.h>
@@ -46,13 +46,12 @@ Budget budgetOf(std::span<const std::string> limits) {
     for (const auto& [name, member] : all)
         names.emplace_back(name);
     for (const std::string& limit : limits) {
-        const auto given = readNamedNumber(limit);
-        const auto found = std::find(names.begin(), names.end(), given ? given->name : "");
-        if (found == names.end() || given->value < 0)
-            throw Error(fmt::format("expected a limit like rmse=0.1, with one of {} before \"=\" "
-                                    "and a number of at least 0 after it, found \"{}\"",
-                                    fmt::join(names, ", "), limit));
-        budget.*(all[static_cast<std::size_t>(found - names.begin())].second) = given->value;
+        const NamedNumber given = parseNamedNumber("--limit", limit, names);
+        if (given.value < 0)
+            throw Error(
+                fmt::format("--limit: expected a number of at least 0, found \"{}\"", limit));
+        const auto found = std::find(names.begin(), names.end(), given.name);
+        budget.*(all[static_cast<std::size_t>(found - names.begin())].second) = given.value;
     }
     return budget;
 }

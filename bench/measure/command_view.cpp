@@ -1,3 +1,4 @@
+#include "base/arguments.h"
 #include "base/progress.h"
 #include "bench/commands.h"
 #include "bench/measure/measured_view.h"
@@ -133,13 +134,17 @@ std::vector<Command> viewCommands(CLI::App& app) {
             ->capture_default_str();
         command->add_option("--scenes", options->scenes, "scenes folder; default OBSCURA_SCENES");
         command->add_option("--camera", options->camera, "position x y z, target x y z")
-            ->expected(6);
+            ->expected(6)
+            ->check(numberFrom(-1e9, 1e9));
         command->add_option("--fov", options->fovDegrees, "vertical, degrees")
+            ->check(numberFrom(1, 170))
             ->capture_default_str();
         for (auto [name, value] :
              {std::pair("--width", &options->width), std::pair("--height", &options->height)})
             command->add_option(name, *value)->check(CLI::Range(1, 16384))->capture_default_str();
-        command->add_option("--radius", options->settings.radius, "metres")->capture_default_str();
+        command->add_option("--radius", options->settings.radius, "metres")
+            ->check(numberFrom(1e-4, 1e4))
+            ->capture_default_str();
     }
     for (CLI::App* command : {ray, normal}) {
         command->add_option("--rays", options->settings.rays, "per pixel")->capture_default_str();
@@ -151,6 +156,7 @@ std::vector<Command> viewCommands(CLI::App& app) {
                      "technique and settings in one argument: \"hbao steps=8 blur=0\"")
         ->required();
     pass->add_option("--seconds", options->seconds, "of each, or 200 frames")
+        ->check(numberFrom(0, 86400))
         ->capture_default_str();
     return {{ray, [options] { return runRays(*options); }},
             {normal, [options] { return runNormals(*options); }},

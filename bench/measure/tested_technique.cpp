@@ -1,7 +1,7 @@
 #include "bench/measure/tested_technique.h"
 
+#include "base/arguments.h"
 #include "base/error.h"
-#include "base/named_number.h"
 #include "base/percentile.h"
 
 #include <fmt/format.h>
@@ -24,15 +24,12 @@ Settings settingsIn(const std::string& configuration) {
                                 "the scene itself: it is the truth",
                                 word));
     while (words >> word) {
-        const auto given = readNamedNumber(word);
-        if (!given)
-            throw Error(fmt::format("expected setting=number, found \"{}\" in \"{}\"", word,
-                                    configuration));
-        if (given->name == "radius")
+        const NamedNumber given = parseNamedNumber(settings.technique().id, word);
+        if (given.name == "radius")
             throw Error(fmt::format("\"{}\": the radius is the tests' unit of length and cannot "
                                     "be set; radiusMultiplier can",
                                     configuration));
-        settings.set(given->name, given->value, {"", 0, 0, configuration});
+        settings.set(given.name, given.value, {"", 0, 0, configuration});
     }
     if (settings.has("radius"))
         settings.set("radius", 1);

@@ -1,3 +1,4 @@
+#include "base/arguments.h"
 #include "base/progress.h"
 #include "bench/commands.h"
 #include "bench/measure/machine.h"
@@ -132,12 +133,13 @@ std::vector<Command> stabilityCommands(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--scenes", options->scenes, "scenes folder; default OBSCURA_SCENES");
     command->add_option("--camera", options->camera, "where paths start: position, target")
-        ->expected(6);
+        ->expected(6)
+        ->check(numberFrom(-1e9, 1e9));
     command->add_option("--fov", options->fovDegrees, "vertical, degrees")
-        ->check(CLI::Range(1.0, 170.0))
+        ->check(numberFrom(1, 170))
         ->capture_default_str();
     command->add_option("--radius", options->radius, "of tests in motion, metres")
-        ->check(CLI::PositiveNumber)
+        ->check(numberFrom(1e-4, 1e4))
         ->capture_default_str();
     command->add_option("--frames", options->frames, "of each path; default 60, quick 12")
         ->check(CLI::Range(3, 100000));

@@ -1,3 +1,4 @@
+#include "base/arguments.h"
 #include "base/files.h"
 #include "base/progress.h"
 #include "bench/choose/choose.h"
@@ -33,20 +34,10 @@ struct StudyOptions {
     bool quick = false;
 };
 
-// "W/H" or "1x2": two whole numbers, a separator between.
-std::optional<std::pair<int, int>> pairOf(const std::string& text, char separator) {
-    int first = 0, second = 0;
-    char found = 0, rest = 0;
-    if (std::sscanf(text.c_str(), "%d%c%d%c", &first, &found, &second, &rest) != 3 ||
-        found != separator)
-        return std::nullopt;
-    return std::pair{first, second};
-}
-
 std::vector<ImageSize> sizesOf(const std::vector<std::string>& texts) {
     std::vector<ImageSize> sizes;
     for (const std::string& text : texts) {
-        const auto pair = pairOf(text, 'x');
+        const auto pair = parsePair(text, 'x');
         if (!pair || std::min(pair->first, pair->second) < 16 ||
             std::max(pair->first, pair->second) > 8192)
             throw Error(
@@ -73,7 +64,7 @@ SweepPlan planOf(const StudyOptions& options, const fs::path& folder) {
     plan.hours = options.hours;
     if (options.part.empty())
         return plan;
-    const auto part = pairOf(options.part, '/');
+    const auto part = parsePair(options.part, '/');
     if (!part || part->first < 1 || part->first > part->second)
         throw Error(
             fmt::format("expected --part I/N with I from 1 to N, found \"{}\"", options.part));
@@ -244,9 +235,13 @@ void addStudyOptions(CLI::App& command, StudyOptions& options) {
                        "render with this device of obscura-render --devices");
     command.add_option("--size", options.sizes,
                        "WIDTHxHEIGHT instead of the study's sizes; may be repeated");
-    command.add_option("--seconds", options.seconds,
-                       "timed of each configuration and view, or the study's number of frames");
-    command.add_option("--hours", options.hours, "that references may take")->capture_default_str();
+    command
+        .add_option("--seconds", options.seconds,
+                    "timed of each configuration and view, or the study's number of frames")
+        ->check(numberFrom(0, 86400));
+    command.add_option("--hours", options.hours, "that references may take")
+        ->check(numberFrom(0, 1e6))
+        ->capture_default_str();
     command.add_flag("--quick", options.quick,
                      "a first look in minutes: few views, small, hardly timed");
 }
@@ -281,7 +276,8 @@ std::vector<Command> sweepCommands(CLI::App& app) {
         ->capture_default_str();
     choosing->add_option("--scene", options->scene,
                          "glTF file or built-in scene, seen from cameras found for it");
-    choosing->add_option("--radius", options->radius, "of occlusion in --scene, metres");
+    choosing->add_option("--radius", options->radius, "of occlusion in --scene, metres")
+        ->check(numberFrom(1e-4, 1e4));
     choosing->add_option("--cameras", options->cameras, "for --scene; half fit, half judge")
         ->check(CLI::Range(4, 64))
         ->capture_default_str();

@@ -22,6 +22,10 @@ struct Camera {
     double near = 0;        // metres; 0: as the scene's size wants it (nearPlane)
 };
 
+// What is wrong with it: "" for a camera that sees something. It must be finite, look somewhere
+// other than straight along `up`, and its angle be below 180 degrees.
+std::string faultOf(const Camera& camera);
+
 // A scene seen from one camera.
 struct View {
     std::string name;

@@ -9,6 +9,22 @@
 
 namespace obscura {
 
+std::string faultOf(const Camera& camera) {
+    const Vec3 &p = camera.position, &t = camera.target, &u = camera.up;
+    const Vec3 d{t[0] - p[0], t[1] - p[1], t[2] - p[2]};
+    const double length = std::hypot(d[0], d[1], d[2]);
+    const double sine =
+        std::hypot(d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]);
+    if (!std::isfinite(length) || !(sine > 1e-6 * length))
+        return "expected a camera with a target apart from its position and a view direction that "
+               "is "
+               "not along \"up\"";
+    if (!(camera.fovDegrees > 0 && camera.fovDegrees < 180))
+        return fmt::format("expected a field of view between 0 and 180 degrees, found {}",
+                           camera.fovDegrees);
+    return {};
+}
+
 namespace {
 
 // Scene coordinates: more than a million metres is a mistyped number.
@@ -30,13 +46,8 @@ Camera parseCamera(TomlTable table) {
     camera.near = table.number("near", 1e-7, 1e3, camera.near);
     table.finish();
 
-    const Vec3 &p = camera.position, &t = camera.target, &u = camera.up;
-    const Vec3 d{t[0] - p[0], t[1] - p[1], t[2] - p[2]};
-    const double sine =
-        std::hypot(d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]);
-    if (!(sine > 1e-6 * std::hypot(d[0], d[1], d[2])))
-        throw Error(table.place(), "expected a target apart from the position and a view direction "
-                                   "that is not along \"up\"");
+    if (const std::string fault = faultOf(camera); !fault.empty())
+        throw Error(table.place(), fault);
     return camera;
 }
 

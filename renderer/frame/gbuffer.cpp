@@ -43,6 +43,8 @@ double nearPlane(const Camera& camera, const Bounds& bounds) {
 
 Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bounds,
                 std::uint64_t seed, glm::vec2 jitter, int guard) {
+    if (const std::string fault = faultOf(camera); !fault.empty())
+        throw Error(fault);
     const glm::dmat4 viewFromWorld =
         glm::lookAt(vec(camera.position), vec(camera.target), vec(camera.up));
     const int inner = height;

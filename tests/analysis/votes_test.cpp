@@ -113,9 +113,9 @@ TEST_F(ReadCounts, TakesEachLine) {
 
 TEST_F(ReadCounts, NamesLineAndColumnOfAFault) {
     EXPECT_EQ(error("1,low,dragon,A,B,H2,18,x\n"),
-              ":2:8: votes_b: expected a whole number >= 0, found \"x\"");
+              ":2:8: votes_b: expected a whole number from 0 to 1000000000000, found \"x\"");
     EXPECT_EQ(error("1,low,dragon,A,B,H2,-1,2\n"),
-              ":2:7: votes_a: expected a whole number >= 0, found \"-1\"");
+              ":2:7: votes_a: expected a whole number from 0 to 1000000000000, found \"-1\"");
     EXPECT_EQ(error("1,low,,A,B,H2,1,2\n"), ":2:3: scene: expected text, found nothing");
     EXPECT_EQ(error("1,low,dragon,A,B,H2,1\n"), ":2: expected 8 columns, found 7");
     EXPECT_EQ(error("1,low,dragon,A,B,H2,1,2\n1,high,dragon,A,B,H2,1,2\n"),

@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "bench/choose/budget.h"
 #include "bench/measure/timing.h"
+#include "tests/error_of.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,18 +37,17 @@ TEST(Budget, WorstExcessComesFirst) {
 }
 
 TEST(Budget, MistakesNameWhatThereIs) {
-    for (const std::string wrong : {"rmse", "rmse=", "rmse=low", "rmse=-1", "speed=3"}) {
+    const std::pair<std::string, std::string> mistakes[] = {
+        {"rmse", "expected --limit NAME=NUMBER, found \"rmse\""},
+        {"rmse=", "found \"rmse=\""},
+        {"rmse=low", "found \"rmse=low\""},
+        {"rmse=-1", "expected a number of at least 0, found \"rmse=-1\""},
+        {"rmsee=1", "did you mean \"rmse\"?"},
+        {"speed=3", "one of: rmse, flip, litFlip, flicker, ms"}};
+    for (const auto& [wrong, expected] : mistakes) {
         const std::string limits[] = {wrong};
-        try {
-            budgetOf(limits);
-            ADD_FAILURE() << "no error for " << wrong;
-        } catch (const Error& error) {
-            EXPECT_EQ(
-                std::string(error.what()),
-                "expected a limit like rmse=0.1, with one of rmse, flip, litFlip, flicker, ms "
-                "before \"=\" and a number of at least 0 after it, found \"" +
-                    wrong + "\"");
-        }
+        EXPECT_THAT(test::errorOf([&] { budgetOf(limits); }), testing::HasSubstr(expected))
+            << wrong;
     }
 }
 
