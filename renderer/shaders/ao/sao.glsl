@@ -27,8 +27,9 @@
 #include "obscurance.glsl"
 #include "spiral.glsl"
 
-// The pixel of the level before, of that size, that a pixel of a level is taken from: the corner of
-// its four changes from pixel to pixel, so that no row or column is lost or kept as a whole.
+// The pixel of the level before (which has that size) from which a pixel of a level is taken. It is
+// a corner of the four that this pixel covers, another one from pixel to pixel, so that no row or
+// column is lost or kept as a whole.
 ivec2 rotatedGrid(ivec2 pixel, ivec2 size) {
     return min(2 * pixel + ((pixel.yx & 1) ^ 1), size - 1);
 }
@@ -61,8 +62,8 @@ vec4 hierarchyLevel(ivec2 pixel) {
     return texelFetch(hierarchyResult, rotatedGrid(pixel, textureSize(hierarchyResult, 0)), 0);
 }
 
-// Position of the neighbour within the quad; where the quad hangs over the border, of the pixel
-// beyond it, with this one's depth.
+// Position of the neighbour within the quad. Where the quad hangs over the border, it is that of
+// the pixel beyond the border, with this pixel's depth.
 vec3 quadNeighbour(ivec2 pixel, ivec2 axis) {
     ivec2 other = pixel + axis * (1 - 2 * (pixel & 1));
     return viewPosition(uvOf(other), depthOf(other));
@@ -115,8 +116,8 @@ float depthKey(float depth, float other) {
     return max(1.0 - abs(other - depth) / (settings.edgeDepth * settings.radius), 0.0);
 }
 
-// Of a pixel (first) and its neighbour in the quad along the axis (second), in one fetch. Beyond
-// the border the neighbour is the pixel itself.
+// The values of a pixel (first) and of its neighbour in the quad along the axis (second), in one
+// fetch. Beyond the border the neighbour is the pixel itself.
 vec2 pairOf(sampler2D values, ivec2 pixel, ivec2 axis) {
     ivec2 even = pixel & ~axis;
     vec4 quad = textureGather(values, vec2(even + 1) * frame.size.zw);

@@ -59,14 +59,14 @@ constexpr Parameter blur{"blur",
                          1,
                          "Jakobsen 2010, section 4.3.1.1"};
 
-// Fetches (technique.h) that shader files make wherever all of their taps lie in the image.
+// Texture fetches of shader files (technique.h) where all of their taps lie in the image.
 
 constexpr Fetches one = [](const Settings&) { return 1.0; };
-// Depth and normal of the pixel, depth of each sample.
+// Fetches depth and normal of the pixel, and depth of each sample.
 constexpr Fetches surfaceAndSamples = [](const Settings& s) { return 2.0 + s["samples"]; };
-// blur.glsl: depths and values of the window's four quads.
+// blur.glsl fetches depths and values of the window's four quads.
 constexpr Fetches depthBlur = [](const Settings&) { return 4.0 * 2; };
-// blur_normal.glsl: the normals of the pixel and of each in the window besides.
+// blur_normal.glsl fetches besides the normals of the pixel and of each pixel in the window.
 constexpr Fetches normalBlur = [](const Settings&) { return 4.0 * 2 + 1 + 16; };
 constexpr Fetches boxBlur = [](const Settings&) { return 1.0 + 16; };
 
@@ -78,7 +78,7 @@ constexpr std::array<Pass, 2> gatherAndBlur(Fetches gather, Fetches blurTile) {
               .work = Work::filter,
               .fetches = blurTile}}};
 }
-// crytek.glsl: whole cubes of eight samples, and no normals.
+// crytek.glsl takes whole cubes of eight samples, and no normals.
 constexpr auto crytekPasses = gatherAndBlur(
     [](const Settings& s) { return 1 + 8 * std::max(std::floor(s["samples"] / 8.0), 1.0); },
     depthBlur);

@@ -114,8 +114,8 @@ constexpr Pass countsPass{.name = "counts",
                           .scale = 4,
                           .work = Work::prepare,
                           .fetches = [](const Settings&) { return 9.0; }};
-// Depth and normal of the pixel and how many slices it gets; of each tap along both sides of each
-// slice, depth.
+// Fetches depth and normal of the pixel and how many slices it gets, and the depth of each tap
+// along both sides of each slice.
 constexpr Fetches slicesTaps = [](const Settings& s) {
     return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"];
 };
@@ -124,8 +124,8 @@ constexpr Pass edgesPass{.name = "edges",
                          .enabledBy = "denoise",
                          .work = Work::prepare,
                          .fetches = [](const Settings&) { return 5.0; }};
-// Depth of the pixel; edges of it and its four neighbours; nine values, which take four fetches
-// (textureGather) where the texture has one channel.
+// Fetches depth of the pixel; edges of it and its four neighbours; and nine values, which take four
+// fetches (textureGather) where the texture has one channel.
 constexpr Pass denoisePass(std::string_view name, int from, std::string_view widenedBy = {}) {
     return {.name = name,
             .format = Format::r16f,
@@ -167,7 +167,7 @@ constexpr Pass bitmaskPasses[] = {
     denoisePass("denoiseThrice", 3),
 };
 
-// XeGTAO's, in slices and steps.
+// XeGTAO's presets: their slices and steps.
 constexpr PresetValue presetLow[] = {{"slices", 1}, {"steps", 2}};
 constexpr PresetValue presetMedium[] = {{"slices", 2}, {"steps", 2}};
 constexpr PresetValue presetHigh[] = {{"slices", 3}, {"steps", 3}};

@@ -112,11 +112,13 @@ constexpr Parameter multiScaleParameters[] = {
     power(),
     downscale};
 
-// Depth and normal of the pixel; depth of each tap. Lines of fewer pixels have fewer steps.
+// Fetches depth and normal of the pixel, and depth of each tap. Lines of fewer pixels than steps
+// have fewer steps.
 constexpr Fetches horizonTaps = [](const Settings& s) {
     return 2.0 + s["directions"] * s["steps"];
 };
-// Along one axis: depth of the pixel and its two neighbours; depth and value of each tap.
+// A blur along one axis fetches depth of the pixel and its two neighbours, and depth and value of
+// each tap.
 constexpr Pass horizonBlurPass(std::string_view name, int scale = 1) {
     return {.name = name,
             .format = Format::r16f,
@@ -145,8 +147,9 @@ constexpr Pass horizonLayerPasses[] = {
     horizonBlurPass("blurDown"),
 };
 
-// combine: depth of the pixel and its four neighbours, normal, detail; depth, normal and value of
-// up to four coarse pixels: nine for four pixels on average, so the mean is 13.75.
+// The pass combine fetches depth of the pixel and its four neighbours, normal and detail; then
+// depth, normal and value of up to four coarse pixels. Four pixels together have nine coarse ones,
+// so the mean is 13.75.
 constexpr Pass multiScalePasses[] = {
     {.name = "coarse", .format = Format::r16f, .scale = 2, .fetches = horizonTaps},
     horizonBlurPass("coarseAcross", 2),

@@ -51,7 +51,7 @@ constexpr Pass ssdoPasses[] = {
      .format = Format::rgba16f,
      .work = Work::filter,
      .fetches =
-         [](const Settings& s) { // depths, normals, ambient light; bounced light, albedo
+         [](const Settings& s) { // depths, normals, ambient light, bounced light, albedo
              const bool blurs = s["blur"] > 0;
              const double values = blurs ? 16 : 1;
              return 4.0 + (blurs ? 17 : 0) + values + 1 + (s["bounce"] > 0 ? values + 1 : 0);

@@ -24,7 +24,7 @@ constexpr Parameter falloffStart{"falloffStart",
                                  10,
                                  "Kim 2022, Ambient Occlusion: 0.1 R"};
 
-// Of blur_compute.glsl.
+// The parameters of blur_compute.glsl.
 constexpr Parameter bilateral{"blur",
                               Unit::flag,
                               "separable cross-bilateral blur in compute shaders",
@@ -47,8 +47,8 @@ constexpr Parameter depthVariance{"depthVariance",
                                   1e4f,
                                   "Kim 2022, Bilateral blur, where the radius is 1"};
 
-// Depth, normal and visibility of each pixel of a group, 128, and of those that its blur reaches
-// beyond either end.
+// Fetches depth, normal and visibility of each of the 128 pixels of a group, and of those that its
+// blur reaches beyond either end.
 constexpr Fetches groupBlur = [](const Settings& s) {
     return 3 * (128 + 2 * s["blurRadius"]) / 128.0;
 };
@@ -142,8 +142,8 @@ constexpr Parameter saoParameters[] = {
     power(),
     downscale};
 
-// Depth of the pixel; of each of seven taps depth and value with those of its neighbour in the
-// quad, each in one fetch.
+// Fetches depth of the pixel, and of each of seven taps depth and value, each in one fetch with
+// that of the tap's neighbour in the quad.
 constexpr Fetches quadBlur = [](const Settings&) { return 1.0 + 7 * 2; };
 
 constexpr Pass saoPasses[] = {
@@ -153,7 +153,7 @@ constexpr Pass saoPasses[] = {
      .work = Work::prepare,
      .fetches = one,
      .levelFetches = one},
-    // Depth of the pixel and two neighbours; of each sample.
+    // Fetches depth of the pixel, of two neighbours and of each sample.
     {.name = "gather",
      .format = Format::r16f,
      .fetches = [](const Settings& s) { return 3.0 + s["samples"]; }},

@@ -53,19 +53,19 @@ constexpr Parameter vaoPlusPlusParameters[] = {
     intensity(),
     power()};
 
-// Along one axis: depth of the pixel; depth and value of each tap.
+// A filter along one axis fetches depth of the pixel, and depth and value of each tap.
 constexpr Fetches filterTaps = [](const Settings& s) {
     const bool gaussian = s["blur"] > 1.5f;
     return 1 + 2 * (2 * std::floor(gaussian ? s["blurSize"] / 2.0 : s["blur"]) + 1);
 };
-// Ambient and direct light.
+// Fetches ambient and direct light.
 constexpr Fetches brightness = [](const Settings& s) {
     return s["luminanceSensitivity"] > 0 ? 2.0 : 0.0;
 };
-// Depth and normal of the pixel, its cell of the culling passes.
+// Fetches depth and normal of the pixel, and its cell of the culling passes.
 constexpr Fetches surfaceAndCells = [](const Settings& s) { return s["culling"] > 0 ? 3.0 : 2.0; };
 
-// Lines: the most; culling and small balls need fewer.
+// The most lines that a pixel takes; culled pixels and small balls need fewer.
 constexpr Pass vaoPlusPlusPasses[] = {
     {.name = "cull",
      .format = Format::r16f,
@@ -95,7 +95,7 @@ constexpr Pass vaoPlusPlusPasses[] = {
      .enabledBy = "blur",
      .work = Work::filter,
      .fetches = [](const Settings& s) { return filterTaps(s) + brightness(s); }},
-    // The normal twice; depth and albedo of each line's surface.
+    // Fetches the normal twice, and depth and albedo of each line's surface.
     {.name = "tint",
      .format = Format::rgba16f,
      .enabledBy = "colourBleeding",
@@ -108,7 +108,7 @@ constexpr Pass vaoPlusPlusPasses[] = {
      .enabledBy = "colourBleeding",
      .work = Work::filter,
      .fetches = filterTaps},
-    // Depth, visibility and ambient light besides.
+    // Fetches depth, visibility and ambient light besides.
     {.name = "bleed",
      .format = Format::rgba16f,
      .enabledBy = "colourBleeding",
