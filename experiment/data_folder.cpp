@@ -92,7 +92,7 @@ std::string lowerCase(std::string text) {
 std::string twinOf(const fs::path& path) {
     if (fs::exists(path.parent_path()))
         for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path())) {
-            const std::string name = entry.path().filename().string();
+            std::string name = entry.path().filename().string();
             if (name != path.filename() && lowerCase(name) == lowerCase(path.filename().string()))
                 return name;
         }

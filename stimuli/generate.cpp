@@ -323,6 +323,7 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     const std::vector<PlannedImage> images = plan(protocol);
     SceneHashes scenes(folders);
     std::vector<Recipe> recipes; // all first: a mistake shows before the first image, not after
+    recipes.reserve(images.size());
     for (const PlannedImage& image : images)
         recipes.push_back(makeRecipe(protocol, protocol.conditions[image.condition], image.member,
                                      scenes, driver, code));

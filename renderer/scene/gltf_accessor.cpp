@@ -35,7 +35,7 @@ GltfAccessor::GltfAccessor(const GltfFile& file, const tinygltf::Model& model, i
     components_ = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type));
     normalised_ = accessor.normalized;
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type_));
-    const auto size = static_cast<std::size_t>(bytes * components_);
+    const auto size = static_cast<std::size_t>(bytes) * static_cast<std::size_t>(components_);
     const auto startOf = [&](int view, std::size_t offset) {
         const auto& from = model.bufferViews[static_cast<std::size_t>(view)];
         return file.buffer(static_cast<std::size_t>(from.buffer)).data() + from.byteOffset + offset;
