@@ -101,7 +101,7 @@ TEST(Programs, RefuseWrongOnes) {
         {"obscura-render --exposure inf" + small, "expected a number from -32 to 32"},
         {"obscura-render --camera nan 0 0 1 0 0", "expected a number from"},
         {"obscura-render --camera 0 0 0 0 0 0 --width 32 --height 18 --out @/o.png",
-         "a target apart from its position"},
+         "a target apart from the position"},
         {"obscura-render --camera 0 5 0 0 0 0 --width 32 --height 18 --out @/o.png",
          "along \"up\""},
         {"obscura-render --width 0" + camera, "--width"},

@@ -235,9 +235,9 @@ std::string responseLine(const Response& response) {
 
 ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
     const std::string file = path.string();
-    const std::string text = readFile(path);
-    checkIsCsv(text, file);
-    const std::vector<CsvRecord> records = splitCsv(text);
+    const std::string content = readFile(path);
+    checkIsCsv(content, file);
+    const std::vector<CsvRecord> records = splitCsv(content);
     ResponseFile result;
     const auto reject = [&](const Place& place, const std::string& message) {
         if (!lenient)

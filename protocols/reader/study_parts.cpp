@@ -16,9 +16,8 @@ std::string faultOf(const Camera& camera) {
     const double sine =
         std::hypot(d[1] * u[2] - d[2] * u[1], d[2] * u[0] - d[0] * u[2], d[0] * u[1] - d[1] * u[0]);
     if (!std::isfinite(length) || !(sine > 1e-6 * length))
-        return "expected a camera with a target apart from its position and a view direction that "
-               "is "
-               "not along \"up\"";
+        return "expected a target apart from the position and a view direction that is not along "
+               "\"up\"";
     if (!(camera.fovDegrees > 0 && camera.fovDegrees < 180))
         return fmt::format("expected a field of view between 0 and 180 degrees, found {}",
                            camera.fovDegrees);

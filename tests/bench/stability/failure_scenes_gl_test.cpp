@@ -154,8 +154,8 @@ TEST(TestedTechniques, MistakesAreNamed) {
     EXPECT_EQ(fault("hbao steps=8 blur=0"), "");
     EXPECT_THAT(fault("hbau"), testing::HasSubstr("did you mean \"hbao\"?"));
     EXPECT_THAT(fault("hbao step=8"), testing::HasSubstr("steps"));
-    EXPECT_THAT(fault("hbao steps=few"), testing::HasSubstr("expected setting=number"));
-    EXPECT_THAT(fault("hbao steps"), testing::HasSubstr("expected setting=number"));
+    EXPECT_THAT(fault("hbao steps=few"), testing::HasSubstr("expected hbao steps=NUMBER"));
+    EXPECT_THAT(fault("hbao steps"), testing::HasSubstr("expected hbao NAME=NUMBER"));
     EXPECT_THAT(fault("hbao radius=2"), testing::HasSubstr("unit of length"));
     EXPECT_THAT(fault("ray_traced"), testing::HasSubstr("expected a technique of the screen"));
     EXPECT_THAT(fault(""), testing::HasSubstr("expected the id of a technique"));
