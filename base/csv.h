@@ -25,6 +25,9 @@ std::vector<CsvRecord> splitCsv(std::string_view text);
 // what to do.
 void checkIsCsv(std::string_view text, const std::string& file);
 
+// Nothing but separators and blanks: a line as spreadsheets and editors leave it, and no row.
+bool isBlank(const CsvRecord& record);
+
 // Why a record is not a whole line of so many cells; "" when it is.
 std::string faultOf(const CsvRecord& record, std::size_t columns);
 

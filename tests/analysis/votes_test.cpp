@@ -44,7 +44,7 @@ TEST(TallyVotes, KeepsConditionsOfOneLevelTogether) {
         rows.push_back(sampleResponse(1, id, true));
         rows.back().level = level;
     }
-    EXPECT_THAT(idsOf(tallyVotes(answersOf(rows), nullptr)), ElementsAre("c1", "c3", "c2", "c4"));
+    EXPECT_THAT(idsOf(tallyVotes(answersOf(rows), nullptr)), ElementsAre("c3", "c1", "c2", "c4"));
 }
 
 TEST(TallyVotes, RefusesAConditionThatMeansTwoPairs) {
@@ -113,16 +113,16 @@ TEST_F(ReadCounts, TakesEachLine) {
 
 TEST_F(ReadCounts, NamesLineAndColumnOfAFault) {
     EXPECT_EQ(error("1,low,dragon,A,B,H2,18,x\n"),
-              ":2:8: votes_b: expected a whole number >= 0, found \"x\"");
+              ":2:8: votes_b: expected a whole number from 0 to 1000000000000, found \"x\"");
     EXPECT_EQ(error("1,low,dragon,A,B,H2,-1,2\n"),
-              ":2:7: votes_a: expected a whole number >= 0, found \"-1\"");
+              ":2:7: votes_a: expected a whole number from 0 to 1000000000000, found \"-1\"");
     EXPECT_EQ(error("1,low,,A,B,H2,1,2\n"), ":2:3: scene: expected text, found nothing");
     EXPECT_EQ(error("1,low,dragon,A,B,H2,1\n"), ":2: expected 8 columns, found 7");
     EXPECT_EQ(error("1,low,dragon,A,B,H2,1,2\n1,high,dragon,A,B,H2,1,2\n"),
               ":3:1: condition_id: condition \"1\" stands here twice");
     EXPECT_EQ(error(""), ":1: expected the header "
                          "condition_id,level,scene,tech_a,tech_b,hypothesis,votes_a,votes_b and a "
-                         "line for each condition");
+                         "line for each condition, or a table written by obscura-analysis");
 }
 
 } // namespace
