@@ -1,5 +1,8 @@
 #include "analysis/answers.h"
 
+#include "base/files.h"
+#include "protocols/reader/design.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -120,6 +123,43 @@ void requireOneStudy(const std::vector<Answer>& answers) {
                                first.row.studyId, at(first), answer.row.studyId));
 }
 
+std::string folded(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z')
+            c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
+
+int columnNumber(std::string_view name) {
+    const auto columns = responseColumns();
+    const auto found = std::find_if(columns.begin(), columns.end(),
+                                    [&](const Column& column) { return column.name == name; });
+    return 1 + static_cast<int>(found - columns.begin());
+}
+
+// `S01` and `s01` are one person, written twice.
+template <auto field>
+void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column) {
+    std::map<std::pair<std::string, std::string>, const Answer*> seen;
+    for (const Answer& answer : answers) {
+        const std::string& name = answer.row.*field;
+        const auto [first, isNew] = seen.try_emplace({answer.row.studyId, folded(name)}, &answer);
+        if (const Answer& other = *first->second; other.row.*field != name)
+            throw Error(
+                {answer.place.file, answer.place.line, columnNumber(column), std::string(column)},
+                fmt::format("expected \"{}\" as in {}, found \"{}\"; write it one way in all "
+                            "rows, or with more than a letter's case between them",
+                            other.row.*field, at(other), name));
+    }
+}
+
+void requireOneSpelling(const std::vector<Answer>& answers) {
+    requireOneSpelling<&Response::participantId>(answers, "participant_id");
+    requireOneSpelling<&Response::conditionId>(answers, "condition_id");
+    requireOneSpelling<&Response::level>(answers, "level");
+    requireOneSpelling<&Response::scene>(answers, "scene");
+}
+
 using Key = std::vector<std::string>;
 
 // Leaves out each row whose key an earlier row has, or refuses it.
@@ -160,6 +200,14 @@ int removeKind(std::vector<Answer>& answers, std::string_view kind) {
         std::erase_if(answers, [&](const Answer& a) { return a.row.trialKind == kind; }));
 }
 
+// What the presenter has kept of the protocol beside the data; nothing where it has not.
+void readOrder(const fs::path& folder, std::vector<std::string>& order) {
+    const fs::path path = folder / "sessions" / "design.json";
+    if (fs::exists(path))
+        for (const std::string& condition : conditionOrder(readFile(path), path.string()))
+            order.push_back(condition);
+}
+
 Answers readAll(const std::vector<fs::path>& files, bool lenient) {
     Answers answers;
     for (const fs::path& file : files) {
@@ -178,6 +226,8 @@ Answers readAll(const std::vector<fs::path>& files, bool lenient) {
 
 Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules) {
     Answers answers = readAll(filesOf(data), rules.lenient);
+    for (const fs::path& given : data)
+        readOrder(given, answers.order);
     std::vector<Answer>& rows = answers.counted;
     removeRehearsals(answers);
     removeSimulated(rows, rules.simulated, answers.leftOut);
@@ -185,6 +235,7 @@ Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules)
         requireOneStudy(rows);
     if (!rules.mixedProtocols)
         requireOneDesign(rows);
+    requireOneSpelling(rows);
     answers.leftOut.duplicates = removeDuplicates(rows, rules.duplicates);
     answers.leftOut.practice = removeKind(rows, "practice");
     answers.leftOut.catches = removeKind(rows, "catch");

@@ -37,7 +37,8 @@ struct LeftOut {
 };
 
 struct Answers {
-    std::vector<Answer> counted; // main trials, in the order of files and lines
+    std::vector<Answer> counted;    // main trials, in the order of files and lines
+    std::vector<std::string> order; // of conditions, where a study's folder keeps its design
     LeftOut leftOut;
     std::vector<BadRow> bad; // skipped because of `lenient`
     int files = 0;

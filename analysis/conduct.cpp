@@ -1,12 +1,12 @@
 #include "analysis/conduct.h"
 
 #include "analysis/frequencies.h"
+#include "base/percentile.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <tuple>
 
 namespace obscura {
@@ -18,7 +18,7 @@ Spread spreadOf(const std::vector<Answer>& answers) {
     std::vector<double> values;
     for (const Answer& answer : answers)
         values.push_back(answer.row.*field);
-    return spread(std::move(values));
+    return spread(values);
 }
 
 void countPeople(const std::vector<Answer>& answers, Conduct& conduct) {
@@ -56,8 +56,10 @@ void countTrial(const Response& row, Conduct& conduct) {
     conduct.simulated += row.simulated;
     conduct.interrupted += row.interrupted;
     conduct.secondChosen += row.chosenPosition == 2;
-    auto& [bFirst, bSecond] = conduct.shown[row.conditionId];
-    ++(row.firstIs == "b" ? bFirst : bSecond);
+    Conduct::Shown& shown = conduct.shown[row.conditionId];
+    const bool bFirst = row.firstIs == "b";
+    ++(bFirst ? shown.bFirst : shown.bSecond);
+    (bFirst ? shown.bChosenFirst : shown.bChosenSecond) += row.choseB;
     ++conduct.timestampSources[row.timestampSource];
     conduct.wrongMasks += row.maskFramesShown != row.maskFramesPlanned;
     conduct.missedFrames += row.missedFrames > 0;
@@ -90,16 +92,9 @@ auto rangeOf(const std::vector<Answer>& answers) {
 
 } // namespace
 
-Spread spread(std::vector<double> values) {
+Spread spread(const std::vector<double>& values) {
     assert(!values.empty());
-    std::sort(values.begin(), values.end());
-    const auto percentile = [&](double p) {
-        const double at = p * static_cast<double>(values.size() - 1);
-        const auto below = static_cast<std::size_t>(at);
-        const std::size_t above = std::min(below + 1, values.size() - 1);
-        return std::lerp(values[below], values[above], at - static_cast<double>(below));
-    };
-    return {percentile(0.05), percentile(0.5), percentile(0.95)};
+    return {percentile(values, 0.05), percentile(values, 0.5), percentile(values, 0.95)};
 }
 
 Conduct conductOf(const Answers& answers) {

@@ -16,16 +16,16 @@ struct Spread {
     double low = 0, median = 0, high = 0; // 5th, 50th and 95th percentile
 };
 
-// Percentiles by linear interpolation (Hyndman and Fan's type 7, R's default). `values` is not
-// empty.
-Spread spread(std::vector<double> values);
+// `values` is not empty.
+Spread spread(const std::vector<double>& values);
 
 struct Conduct {
     struct Sessions {
         int base = 0, exchanged = 0; // the images of every pair in the protocol's order, or swapped
     };
     struct Shown {
-        int bFirst = 0, bSecond = 0;
+        int bFirst = 0, bSecond = 0;             // trials
+        int bChosenFirst = 0, bChosenSecond = 0; // of those, with an answer for b
     };
 
     int files = 0, participants = 0, sessions = 0, trials = 0, simulated = 0, interrupted = 0;

@@ -33,8 +33,17 @@ std::vector<Tally> different(const Findings& findings) {
     return select(findings, [](const Tally& tally) { return differs(tally.votes); });
 }
 
+Interval intervalOf(const Tally& tally) { return wilson(tally.votes.b, tally.votes.total()); }
+
+// So many votes that hardly any preference is left to find: the interval lies around one half.
+bool isEven(const Tally& tally) {
+    const Interval interval = intervalOf(tally);
+    return !differs(tally.votes) && interval.low >= 0.45 && interval.high <= 0.55;
+}
+
 std::vector<Tally> undecided(const Findings& findings) {
-    return select(findings, [](const Tally& tally) { return !differs(tally.votes); });
+    return select(findings,
+                  [](const Tally& tally) { return !differs(tally.votes) && !isEven(tally); });
 }
 
 std::string place(const Tally& tally) { return fmt::format("{}, {}", tally.scene, tally.level); }
@@ -97,21 +106,35 @@ std::string multiplicity(const Findings& findings) {
                        tests, static_cast<double>(tests) * significance);
 }
 
+std::string evenSplits(const Findings& findings) {
+    const auto even = select(findings, isEven);
+    if (even.empty())
+        return {};
+    return fmt::format("No noticeable preference: {}.", listOf(even, [](const Tally& tally) {
+                           const auto [low, high] = intervalOf(tally);
+                           return fmt::format("with {} votes, the share of {} over {} ({}) lies "
+                                              "from {:.1f} to {:.1f} % (95 % interval)",
+                                              tally.votes.total(), tally.techniqueB,
+                                              tally.techniqueA, place(tally), 100 * low,
+                                              100 * high);
+                       }));
+}
+
 std::string notEquivalence(const Findings& findings) {
     const auto others = undecided(findings);
     if (others.empty())
         return {};
     Interval widest{1, 0};
     for (const Tally& tally : others) {
-        const Interval interval = wilson(tally.votes.b, tally.votes.total());
+        const Interval interval = intervalOf(tally);
         widest.low = std::min(widest.low, interval.low);
         widest.high = std::max(widest.high, interval.high);
     }
     return fmt::format("For {} {} the data do not decide: a large p, even 1, does not show that "
                        "two images look equally real, and the intervals leave room for shares from "
                        "{:.0f} to {:.0f} %.",
-                       different(findings).empty() ? "all" : "the other", others.size(),
-                       100 * widest.low, 100 * widest.high);
+                       others.size() == tested(findings).size() ? "all" : "the other",
+                       others.size(), 100 * widest.low, 100 * widest.high);
 }
 
 std::string repeatedVotes(const Findings& findings) {
@@ -131,6 +154,46 @@ std::string missing(const Findings& findings) {
         return {};
     return fmt::format("No votes yet: {}.",
                        listOf(empty, [](const Tally& tally) { return tally.condition; }));
+}
+
+std::string bShare(int chosen, int shown) {
+    return shown == 0 ? "never shown"
+                      : fmt::format("{:.0f} % of {}", 100.0 * chosen / shown, shown);
+}
+
+std::string unbalancedOrder(const Conduct& conduct) {
+    std::string list;
+    for (const auto& [condition, shown] : conduct.shown)
+        if (differs({shown.bFirst, shown.bSecond}))
+            list += fmt::format("{}{} (b second in {} of {})", list.empty() ? "" : ", ", condition,
+                                shown.bSecond, shown.bFirst + shown.bSecond);
+    if (list.empty())
+        return {};
+    return fmt::format("CAUTION: the order of a and b was not balanced, so that a preference for "
+                       "a position and one for a picture cannot be told apart there: {}.",
+                       list);
+}
+
+std::string positionExplains(const Conduct& conduct) {
+    const Votes positions{conduct.trials - conduct.secondChosen, conduct.secondChosen};
+    if (!differs(positions))
+        return {};
+    Conduct::Shown all;
+    for (const auto& [condition, shown] : conduct.shown) {
+        all.bFirst += shown.bFirst;
+        all.bSecond += shown.bSecond;
+        all.bChosenFirst += shown.bChosenFirst;
+        all.bChosenSecond += shown.bChosenSecond;
+    }
+    const double p = exactP(positions);
+    return fmt::format(
+        "CAUTION: position {} choices. The second picture was chosen in {} of {} votes "
+        "({:.0f} %; exact two-sided binomial p {}). b was chosen, when shown first: {}; when shown "
+        "second: {}.",
+        unbalancedOrder(conduct).empty() ? "explains" : "may explain", positions.b,
+        positions.total(), 100.0 * positions.b / positions.total(),
+        p < 0.001 ? "< 0.001" : fmt::format("= {:.3f}", p), bShare(all.bChosenFirst, all.bFirst),
+        bShare(all.bChosenSecond, all.bSecond));
 }
 
 } // namespace
@@ -154,11 +217,22 @@ std::string stampOf(const Findings& findings) {
                        findings.conduct->simulated, findings.conduct->trials);
 }
 
+std::vector<std::string> cautionsOf(const Findings& findings) {
+    std::vector<std::string> cautions;
+    if (findings.conduct)
+        for (const std::string& caution :
+             {positionExplains(*findings.conduct), unbalancedOrder(*findings.conduct)})
+            if (!caution.empty())
+                cautions.push_back(caution);
+    return cautions;
+}
+
 std::vector<std::string> summaryOf(const Findings& findings) {
     std::vector<std::string> sentences;
     for (const std::string& sentence :
          {extent(findings), differences(findings), disagreement(findings), multiplicity(findings),
-          notEquivalence(findings), repeatedVotes(findings), missing(findings)})
+          evenSplits(findings), notEquivalence(findings), repeatedVotes(findings),
+          missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
     return sentences;

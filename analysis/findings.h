@@ -28,6 +28,10 @@ std::string sourceOf(const Findings& findings);
 // The loud line above everything when programs answered; "" otherwise.
 std::string stampOf(const Findings& findings);
 
+// What a reader must know before any result: that the position of a picture explains choices, or
+// cannot be told apart from the picture. Stands above everything and in each line of the CSV.
+std::vector<std::string> cautionsOf(const Findings& findings);
+
 // A few plain sentences that claim no more than the numbers do.
 std::vector<std::string> summaryOf(const Findings& findings);
 

@@ -85,7 +85,7 @@ Findings findingsOf(const Options& options) {
         findings.stimuli = readManifest(options.stimuli / "manifest.json");
     const Manifest* stimuli = findings.stimuli ? &*findings.stimuli : nullptr;
     findings.title = stimuli ? stimuli->title : answers.counted.front().row.studyId;
-    findings.tallies = tallyVotes(answers.counted, stimuli);
+    findings.tallies = tallyVotes(answers.counted, stimuli, answers.order);
     findings.conduct = conductOf(answers);
     return findings;
 }
@@ -93,6 +93,8 @@ Findings findingsOf(const Options& options) {
 void printFindings(const Findings& findings) {
     if (const std::string stamp = stampOf(findings); !stamp.empty())
         fmt::print("*** {} ***\n\n", stamp);
+    for (const std::string& caution : cautionsOf(findings))
+        fmt::print("*** {} ***\n\n", caution);
     fmt::print("{}\n\n{}\n", findings.title, alignedText(resultTable(findings.tallies)));
     for (const std::string& sentence : summaryOf(findings))
         fmt::print("{}\n", sentence);

@@ -148,8 +148,11 @@ std::string reportHtml(const Findings& findings) {
     const std::string mark = stamp.empty() ? "" : fmt::format("[{}] ", sourceOf(findings));
     std::string html = pageHead(mark + findings.title, style);
     html += element("h1", findings.title);
+    std::vector<std::string> loud = cautionsOf(findings);
     if (!stamp.empty())
-        html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(stamp));
+        loud.insert(loud.begin(), stamp);
+    for (const std::string& line : loud)
+        html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(line));
     html += paragraphs(findings) + results(findings);
     if (findings.stimuli)
         html += stimuliSection(*findings.stimuli);

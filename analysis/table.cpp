@@ -147,12 +147,13 @@ std::string resultCsv(const Findings& findings) {
     std::string csv = "source";
     for (const Field& field : stored)
         csv += fmt::format(",{}", field.name);
-    csv += '\n';
+    csv += ",caution\n";
+    const std::string caution = fmt::format("{}", fmt::join(cautionsOf(findings), " "));
     for (const Tally& tally : findings.tallies) {
         csv += csvCell(sourceOf(findings));
         for (const Field& field : stored)
             csv.append(",").append(csvCell(cellOf(field, tally, "")));
-        csv += '\n';
+        csv += fmt::format(",{}\n", csvCell(caution));
     }
     return csv;
 }

@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+#include "protocols/reader/cell_faults.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +10,7 @@
 #include <array>
 #include <cassert>
 #include <map>
+#include <set>
 
 namespace obscura {
 
@@ -33,13 +35,16 @@ Tally emptyTally(const Response& row) {
             row.techniqueA,  row.techniqueB, {}};
 }
 
-std::vector<Tally> emptyTallies(const std::vector<Answer>& answers) {
-    std::map<std::string, Tally> byId;
-    for (const Answer& answer : answers)
-        byId.try_emplace(answer.row.conditionId, emptyTally(answer.row));
+std::vector<Tally> emptyTallies(const std::vector<Answer>& answers,
+                                const std::vector<std::string>& order) {
+    std::set<std::string> known;
     std::vector<Tally> tallies;
-    for (const auto& [id, tally] : byId)
-        tallies.push_back(tally);
+    for (const Answer& answer : answers)
+        if (known.insert(answer.row.conditionId).second)
+            tallies.push_back(emptyTally(answer.row));
+    std::ranges::stable_sort(tallies, {}, [&](const Tally& tally) { // those not in it are last
+        return std::find(order.begin(), order.end(), tally.condition) - order.begin();
+    });
     return tallies;
 }
 
@@ -97,41 +102,70 @@ std::int64_t voteCount(const std::string& cell, const Place& place) {
     return count;
 }
 
-Tally countsOf(const CsvRecord& record, const std::string& file) {
-    const auto place = [&](int column) {
-        return Place{file, record.line, column, std::string(countColumns.at(column - 1))};
-    };
-    const auto& cells = record.cells;
-    for (int column = 1; column <= 5; ++column)
-        if (cells[column - 1].empty())
-            throw Error(place(column), "expected text, found nothing");
-    return {cells[0],
-            cells[1],
-            cells[2],
-            cells[5],
-            cells[3],
-            cells[4],
-            {voteCount(cells[6], place(7)), voteCount(cells[7], place(8))}};
+// Where the columns of counts stand: published counts have these alone, and a table of this program
+// has them by its own names among others.
+using Layout = std::array<std::size_t, countColumns.size()>;
+
+Layout layoutOf(const std::vector<std::string>& header, const std::string& file) {
+    Layout layout{};
+    const bool own = !header.empty() && header.front() == "source";
+    for (std::size_t i = 0; i < countColumns.size(); ++i) {
+        std::string name(countColumns[i]);
+        if (own && name.starts_with("tech_"))
+            name.replace(0, 5, "technique_");
+        layout[i] = static_cast<std::size_t>(std::find(header.begin(), header.end(), name) -
+                                             header.begin());
+        if (layout[i] == header.size() || (!own && layout[i] != i) ||
+            (!own && header.size() != countColumns.size()))
+            throw Error({file, 1, 0, {}},
+                        fmt::format("expected the header {} and a line for each condition, or a "
+                                    "table written by obscura-analysis",
+                                    fmt::join(countColumns, ",")));
+    }
+    return layout;
 }
 
-void checkCells(const CsvRecord& record, const std::string& file) {
+Tally countsOf(const CsvRecord& record, const Layout& layout, const std::string& file) {
+    const auto place = [&](std::size_t i) {
+        return Place{file, record.line, static_cast<int>(layout[i]) + 1,
+                     std::string(countColumns[i])};
+    };
+    const auto cell = [&](std::size_t i) { return record.cells[layout[i]]; };
+    for (std::size_t i = 0; i < 6; ++i) {
+        if (i < 5 && cell(i).empty())
+            throw Error(place(i), "expected text, found nothing");
+        for (const std::string& fault : {foreignByte(cell(i)), strayName(cell(i))})
+            if (!fault.empty())
+                throw Error(place(i), fault);
+    }
+    return {cell(0),
+            cell(1),
+            cell(2),
+            cell(5),
+            cell(3),
+            cell(4),
+            {voteCount(cell(6), place(6)), voteCount(cell(7), place(7))}};
+}
+
+void checkCells(const CsvRecord& record, std::size_t columns, const std::string& file) {
     const Place place{file, record.line, 0, {}};
     if (!record.fault.empty())
         throw Error(place, record.fault);
-    if (record.cells.size() != countColumns.size())
-        throw Error(place, fmt::format("expected {} columns, found {}", countColumns.size(),
-                                       record.cells.size()));
+    if (record.cells.size() != columns)
+        throw Error(place,
+                    fmt::format("expected {} columns, found {}", columns, record.cells.size()));
 }
 
 } // namespace
 
-std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest* stimuli) {
+std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest* stimuli,
+                              const std::vector<std::string>& order) {
     std::vector<Tally> tallies;
     if (stimuli)
         for (const PairRecord& pair : stimuli->pairs)
             tallies.push_back(emptyTally(pair));
     else
-        tallies = emptyTallies(answers);
+        tallies = emptyTallies(answers, order);
     for (const Answer& answer : answers) {
         Votes& votes = tallyOf(answer, tallies).votes;
         if (stimuli)
@@ -146,15 +180,15 @@ std::vector<Tally> readCounts(const std::filesystem::path& path) {
     const std::string file = path.string();
     const std::string text = readFile(path);
     checkIsCsv(text, file);
-    const std::vector<CsvRecord> records = splitCsv(text);
-    if (records.size() < 2 || !std::ranges::equal(records.front().cells, countColumns))
-        throw Error({file, 1, 0, {}}, fmt::format("expected the header {} and a line for each "
-                                                  "condition",
-                                                  fmt::join(countColumns, ",")));
+    std::vector<CsvRecord> records = splitCsv(text);
+    std::erase_if(records, isBlank);
+    const std::vector<std::string> header =
+        records.size() < 2 ? std::vector<std::string>{} : records.front().cells;
+    const Layout layout = layoutOf(header, file);
     std::vector<Tally> tallies;
     for (const CsvRecord& record : std::span(records).subspan(1)) {
-        checkCells(record, file);
-        Tally tally = countsOf(record, file);
+        checkCells(record, header.size(), file);
+        Tally tally = countsOf(record, layout, file);
         for (const Tally& earlier : tallies)
             if (earlier.condition == tally.condition)
                 throw Error({file, record.line, 1, std::string(countColumns[0])},

@@ -17,13 +17,16 @@ struct Tally {
 };
 
 // One tally per condition, in the order of the stimuli's manifest (then every condition has one,
-// even without votes) or, without a manifest, of condition ids; conditions of one level together.
+// even without votes) or, without a manifest, in `order` and then that
+// of their first rows; conditions of one level together.
 // Rows that name a condition but describe another pair are an Error, and so, given a manifest, are
 // rows whose images are not the manifest's.
-std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest* stimuli);
+std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest* stimuli,
+                              const std::vector<std::string>& order = {});
 
-// Published counts: condition_id,level,scene,tech_a,tech_b,hypothesis,votes_a,votes_b; in the
-// order of the file.
+// Published counts: condition_id,level,scene,tech_a,tech_b,hypothesis,votes_a,votes_b; or a table
+// that this program wrote (votes.csv), of which the same columns are read. In the order of the
+// file.
 std::vector<Tally> readCounts(const std::filesystem::path& path);
 
 } // namespace obscura

@@ -109,6 +109,10 @@ std::string otherFormat(std::string_view text) {
 void checkIsCsv(std::string_view text, const std::string& file) {
     if (const std::string other = otherFormat(text); !other.empty())
         throw Error({file, 1, 0, {}}, "expected CSV, found " + other);
+    if (text.substr(text.starts_with("\xEF\xBB\xBF") ? 3 : 0).starts_with('#'))
+        throw Error(
+            {file, 1, 0, {}},
+            "expected the header, found a comment (#), which CSV has not; remove that line");
     const std::string_view header = text.substr(0, text.find('\n'));
     if (std::count(header.begin(), header.end(), '\r') > 1)
         throw Error(
@@ -130,6 +134,13 @@ std::vector<CsvRecord> splitCsv(std::string_view text) {
     return records;
 }
 
+bool isBlank(const CsvRecord& record) {
+    const auto empty = [](const std::string& cell) {
+        return cell.find_first_not_of(" \t\r\n") == cell.npos;
+    };
+    return record.fault.empty() && std::all_of(record.cells.begin(), record.cells.end(), empty);
+}
+
 std::string faultOf(const CsvRecord& record, std::size_t columns) {
     if (!record.ended)
         return "the line has no end: it was cut off while being written";
@@ -142,10 +153,19 @@ std::string faultOf(const CsvRecord& record, std::size_t columns) {
 
 void checkHeader(const CsvRecord& header, const std::vector<std::string>& names,
                  const std::string& file) {
+    for (std::size_t i = 0; i < header.cells.size(); ++i)
+        if (header.cells[i].find_first_not_of(" \t\r") == std::string::npos)
+            throw Error({file, header.line, static_cast<int>(i) + 1, {}},
+                        i == 0 ? "expected column \"" + names.front() +
+                                     "\", found one without a name, such as pandas writes for its "
+                                     "index; remove the column (index=False)"
+                               : "found a column without a name; remove it (in every line, where "
+                                 "it is a comma too many at the end)");
     for (const std::string& cell : header.cells)
         if (std::find(names.begin(), names.end(), cell) == names.end())
-            throw Error({file, 1, 0, cell},
-                        fmt::format("unknown column{}", suggestion(cell, names)));
+            throw Error({file, 1, 0, cell}, "unknown column" + (nearest(cell, names).empty()
+                                                                    ? "; remove it, in every line"
+                                                                    : suggestion(cell, names)));
     for (std::size_t i = 0; i < names.size(); ++i)
         if (i >= header.cells.size() || header.cells[i] != names[i])
             throw Error({file, 1, static_cast<int>(i) + 1, {}},

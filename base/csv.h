@@ -25,7 +25,10 @@ std::vector<CsvRecord> splitCsv(std::string_view text);
 // what to do.
 void checkIsCsv(std::string_view text, const std::string& file);
 
-// Why a record is not a complete line of `columns` cells; "" when it is one.
+// Nothing but separators and blanks: a line as spreadsheets and editors leave it, and no row.
+bool isBlank(const CsvRecord& record);
+
+// Why a record is not a whole line of so many cells; "" when it is.
 std::string faultOf(const CsvRecord& record, std::size_t columns);
 
 // The header must name these columns in this order; an Error at the first that differs.

@@ -136,7 +136,7 @@ TEST(IncludeRules, EveryFileIsInARoom) {
 
 TEST(IncludeRules, ExceptionsAreNeeded) {
     for (const auto& [exception, reason] : exceptions) {
-        const auto& [path, included] = exception;
+        const std::string &path = exception.first, &included = exception.second;
         const auto file = std::find_if(files().begin(), files().end(),
                                        [&](const File& each) { return each.path == path; });
         ASSERT_NE(file, files().end()) << path;

@@ -2,6 +2,7 @@
 
 #include "base/csv.h"
 #include "base/files.h"
+#include "protocols/reader/cell_faults.h"
 
 #include <fmt/format.h>
 
@@ -190,17 +191,43 @@ int versionOf(const CsvRecord& header) {
     return version;
 }
 
+// Columns whose texts tell people, conditions and pictures apart.
+bool isName(const Column& column) {
+    constexpr std::string_view names[] = {
+        "row_id", "study_id",   "participant_id", "session_id",  "condition_id",    "level",
+        "scene",  "hypothesis", "technique_a",    "technique_b", "chosen_technique"};
+    return std::find(std::begin(names), std::end(names), column.name) != std::end(names);
+}
+
+std::string textFault(const Column& column, const std::string& cell) {
+    const std::string fault = foreignByte(cell);
+    return fault.empty() && isName(column) ? strayName(cell) : fault;
+}
+
 // `list`: the columns of the file's version.
-std::optional<BadRow> parseRow(const CsvRecord& record, std::span<const Column> list, int version,
-                               const std::string& file, Response& response) {
-    if (const std::string fault = faultOf(record, list.size()); !fault.empty())
-        return BadRow{{file, record.line, 0, {}}, fault};
+std::optional<BadRow> parseRow(const CsvRecord& record, const CsvRecord& header,
+                               std::span<const Column> list, int version, const std::string& file,
+                               Response& response) {
+    // A whole row needs no line feed: editors leave it out. What is torn lacks cells or fails
+    // below.
+    const bool complete = record.fault.empty() && record.cells.size() == list.size();
+    if (!complete)
+        return BadRow{{file, record.line, 0, {}}, faultOf(record, list.size())};
+    if (record.cells == header.cells)
+        return BadRow{{file, record.line, 0, {}},
+                      "the header stands here again, as where two files were joined; remove the "
+                      "line"};
+    for (std::size_t i = 0; i < list.size(); ++i)
+        if (const std::string fault = textFault(list[i], record.cells[i]); !fault.empty())
+            return BadRow{{file, record.line, static_cast<int>(i) + 1, std::string(list[i].name)},
+                          fault};
     for (const bool check : {false, true}) // every cell first: a check may read several
         for (std::size_t i = 0; i < list.size(); ++i)
             if (check ? !list[i].accepts(response) : !parseCell(response, list[i], record.cells[i]))
                 return BadRow{
                     {file, record.line, static_cast<int>(i) + 1, std::string(list[i].name)},
-                    fmt::format("expected {}, found \"{}\"", list[i].expected, record.cells[i])};
+                    fmt::format("expected {}, found \"{}\"{}", list[i].expected, record.cells[i],
+                                cellHint(record.cells[i]))};
     if (response.schemaVersion != version)
         return BadRow{{file, record.line, 1, "schema_version"},
                       fmt::format("expected {}, whose columns the header names, found {}", version,
@@ -237,7 +264,8 @@ ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
     const std::string file = path.string();
     const std::string content = readFile(path);
     checkIsCsv(content, file);
-    const std::vector<CsvRecord> records = splitCsv(content);
+    std::vector<CsvRecord> records = splitCsv(content);
+    std::erase_if(records, isBlank);
     ResponseFile result;
     const auto reject = [&](const Place& place, const std::string& message) {
         if (!lenient)
@@ -253,7 +281,8 @@ ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
     checkHeader(records.front(), namesOf(list), file);
     for (const CsvRecord& record : std::span(records).subspan(1)) {
         Response response;
-        if (const auto bad = parseRow(record, list, result.version, file, response)) {
+        if (const auto bad =
+                parseRow(record, records.front(), list, result.version, file, response)) {
             reject(bad->place, bad->message);
             continue;
         }

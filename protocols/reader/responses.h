@@ -80,8 +80,9 @@ struct ResponseFile {
 // Reads one participant's CSV and checks every row against the columns. A missing or unknown column
 // is an Error; but files of an earlier version may lack the columns that came later, and `version`
 // says which it is. A bad row is an Error naming file, line and column, or, when `lenient`, goes
-// into `bad` and is skipped; so are a last line without line feed and a header without one (torn
-// writes). A place's column is the number of the cell, as a spreadsheet shows it.
+// into `bad` and is skipped; so are a last line that is not whole and a header without line feed
+// (torn writes). Blank lines are no rows. A place's column is the number of the cell, as a
+// spreadsheet shows it.
 ResponseFile readResponses(const std::filesystem::path& path, bool lenient);
 
 } // namespace obscura

@@ -93,6 +93,78 @@ TEST_F(Program, AnalysesAStudysFolderWithItsStimuli) {
     EXPECT_THAT(columns.at("source"), testing::Each("participants"));
 }
 
+TEST_F(Program, CautionsFirstWherePositionExplainsChoices) {
+    std::vector<Response> rows;
+    for (int number = 1; number <= 28; ++number) { // everybody chooses the second image
+        rows.push_back(test::sampleResponse(number, "c1", (number - 1) % 14 < 7));
+        ASSERT_EQ(rows.back().chosenPosition, 2);
+    }
+    const auto file = test::writeRows(folder_ / "always2.csv", rows);
+    const Outcome outcome = run("'" + file.string() + "'");
+    EXPECT_THAT(outcome.output,
+                StartsWith("*** CAUTION: position explains choices. The second picture was chosen "
+                           "in 28 of 28 votes (100 %; exact two-sided binomial p < 0.001). b was "
+                           "chosen, when shown first: 0 % of 14; when shown second: 100 % of 14."));
+    EXPECT_THAT(outcome.output, Not(HasSubstr("not balanced")));
+    EXPECT_THAT(readFile(out() / "report.html"), HasSubstr("CAUTION: position explains"));
+    EXPECT_THAT(table().at("caution"), testing::Each(StartsWith("CAUTION")));
+}
+
+TEST_F(Program, CautionsFirstWhereOrderWasNotBalanced) {
+    std::vector<Response> rows;
+    for (int number = 1; number <= 28; ++number) {
+        Response row = test::sampleResponse((number - 1) % 7 + 1, "c1", number % 2);
+        row.participantId = fmt::format("P{:02}", number);
+        row.rowId = row.participantId + "-1-c1";
+        rows.push_back(row);
+    }
+    const auto file = test::writeRows(folder_ / "unbalanced.csv", rows);
+    EXPECT_THAT(run("'" + file.string() + "'").output,
+                StartsWith("*** CAUTION: the order of a and b was not balanced, so that a "
+                           "preference for a position and one for a picture cannot be told apart "
+                           "there: c1 (b second in 28 of 28)."));
+}
+
+TEST_F(Program, SaysOfAnEvenSplitOfManyVotesThatNoPreferenceIsNoticeable) {
+    const auto file = folder_ / "even.csv";
+    writeFile(file, "condition_id,level,scene,tech_a,tech_b,hypothesis,votes_a,votes_b\n"
+                    "many,low,dragon,A,B,,500000,500000\n");
+    const Outcome outcome = run("--counts '" + file.string() + "'");
+    EXPECT_THAT(outcome.output,
+                HasSubstr("No noticeable preference: with 1000000 votes, the share of B over A "
+                          "(dragon, low) lies from 49.9 to 50.1 % (95 % interval)."));
+    EXPECT_THAT(outcome.output, Not(HasSubstr("do not decide")));
+}
+
+TEST_F(Program, RefusesOnePersonSpeltTwoWays) {
+    std::vector<Response> rows = {test::sampleResponse(1, "c1", true),
+                                  test::sampleResponse(2, "c1", true)};
+    rows[1].participantId = "p01";
+    const auto file = test::writeRows(folder_ / "two.csv", rows);
+    EXPECT_THAT(run("'" + file.string() + "'").output,
+                HasSubstr("two.csv:3:4: participant_id: expected \"P01\" as in " + file.string() +
+                          ":2, found \"p01\""));
+}
+
+TEST_F(Program, ReadsItsOwnTableAsCounts) {
+    ASSERT_EQ(run(study()).status, 0);
+    const auto before = table();
+    const auto copy = folder_ / "copy.csv";
+    std::filesystem::copy_file(out() / "votes.csv", copy);
+    const Outcome outcome = run("--counts '" + copy.string() + "'");
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    for (const char* column : {"condition_id", "technique_a", "votes_a", "votes_b", "p_exact"})
+        EXPECT_EQ(table().at(column), before.at(column));
+}
+
+TEST_F(Program, FollowsTheOrderOfTheStudysDesign) {
+    const std::string data = study();
+    writeFile(folder_ / "study/sessions/design.json",
+              R"({"order of conditions":["c2","c1"],"conditions":{}})");
+    ASSERT_EQ(run(data).status, 0);
+    EXPECT_THAT(table().at("condition_id"), testing::ElementsAre("c2", "c1"));
+}
+
 TEST_F(Program, StampsSimulatedData) {
     const Outcome outcome = run(study(true));
     ASSERT_EQ(outcome.status, 0) << outcome.output;

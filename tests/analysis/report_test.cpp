@@ -108,7 +108,7 @@ TEST(Table, HasThesisTable4InItsCsv) {
     EXPECT_EQ(fmt::format("{}", fmt::join(records[0].cells, ",")),
               "source,condition_id,level,scene,hypothesis,technique_a,technique_b,votes_a,votes_b,"
               "share_b,wilson_low,wilson_high,chi_square,p_chi_square,p_exact,cohen_g,cohen_h,"
-              "cohen_w,jod");
+              "cohen_w,jod,caution");
     EXPECT_EQ(records[3].cells[0], "published counts");
     EXPECT_NEAR(std::stod(records[3].cells[12]), 49.0 / 9, 1e-12);
 }
@@ -117,7 +117,7 @@ TEST(Table, LeavesCsvCellsEmptyWhereThereIsNoFigure) {
     Findings findings = thesis();
     findings.tallies.resize(1);
     findings.tallies[0].votes = {};
-    EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0,,,,,,,,,,\n"));
+    EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0,,,,,,,,,,,\n"));
 }
 
 TEST(Chart, IsSvgWithEveryLabelAndCount) {

@@ -44,7 +44,7 @@ TEST(TallyVotes, KeepsConditionsOfOneLevelTogether) {
         rows.push_back(sampleResponse(1, id, true));
         rows.back().level = level;
     }
-    EXPECT_THAT(idsOf(tallyVotes(answersOf(rows), nullptr)), ElementsAre("c1", "c3", "c2", "c4"));
+    EXPECT_THAT(idsOf(tallyVotes(answersOf(rows), nullptr)), ElementsAre("c3", "c1", "c2", "c4"));
 }
 
 TEST(TallyVotes, RefusesAConditionThatMeansTwoPairs) {
@@ -122,7 +122,7 @@ TEST_F(ReadCounts, NamesLineAndColumnOfAFault) {
               ":3:1: condition_id: condition \"1\" stands here twice");
     EXPECT_EQ(error(""), ":1: expected the header "
                          "condition_id,level,scene,tech_a,tech_b,hypothesis,votes_a,votes_b and a "
-                         "line for each condition");
+                         "line for each condition, or a table written by obscura-analysis");
 }
 
 } // namespace

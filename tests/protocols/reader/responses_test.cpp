@@ -204,6 +204,65 @@ TEST_F(Responses, RefuseATornLastLine) {
     EXPECT_EQ(lenient.bad[0].place.line, 3);
 }
 
+TEST_F(Responses, TakeBlankLinesAndAWholeLastRowWithoutLineFeed) {
+    const std::string row = responseLine(sampleResponse(1, "c1", true));
+    std::string last = responseLine(sampleResponse(2, "c1", true));
+    last.pop_back();
+    const ResponseFile file =
+        read(responseHeader() + "\n" + row + std::string(49, ',') + "\r\n \n" + last);
+    EXPECT_THAT(file.lines, ElementsAre(3, 6));
+    EXPECT_EQ(read(responseHeader() + row + "\n\n").rows.size(), 1u);
+    last.pop_back(); // torn within the last cell
+    EXPECT_THAT(errorOf(responseHeader() + last), testing::HasSubstr("64 hexadecimal digits"));
+}
+
+TEST_F(Responses, RefuseForeignBytesAndStrayNames) {
+    const auto fault = [&](std::string Response::*field, const std::string& text) {
+        Response row = sampleResponse(1, "c1", true);
+        row.*field = text;
+        return errorOf(responseHeader() + responseLine(row));
+    };
+    using testing::HasSubstr;
+    using testing::StartsWith;
+    const std::string nul("a\0b", 3);
+    EXPECT_THAT(fault(&Response::machineId, nul),
+                StartsWith(":2:47: machine_id: expected text, found the byte 0x00 at byte 2 of"));
+    EXPECT_THAT(fault(&Response::paramsA, "a\x01"), HasSubstr("the byte 0x01"));
+    EXPECT_THAT(fault(&Response::stimFirst, "caf\xE9"),
+                HasSubstr("expected text in UTF-8, found the byte 0xE9 at byte 4"));
+    EXPECT_THAT(fault(&Response::scene, "\xED\xA0\x80"), HasSubstr("expected text in UTF-8"));
+    EXPECT_THAT(fault(&Response::participantId, "S01 "),
+                StartsWith(":2:4: participant_id: expected \"S01\", found \"S01 \", with blanks"));
+    EXPECT_THAT(fault(&Response::conditionId, "c1\xC2\xA0"), HasSubstr("expected \"c1\""));
+    EXPECT_THAT(fault(&Response::level, "\xE2\x80\x8Blow"), HasSubstr("expected \"low\""));
+    EXPECT_THAT(fault(&Response::participantId, "1.00E+05"), HasSubstr("a spreadsheet"));
+    EXPECT_EQ(errorOf(responseHeader()), "no error");
+    Response accented = sampleResponse(1, "c1", true);
+    accented.scene = "caf\xC3\xA9 \xE7\x92\xB0";
+    EXPECT_EQ(read(responseHeader() + responseLine(accented)).rows.size(), 1u);
+}
+
+TEST_F(Responses, HintAtWhatASpreadsheetOrScriptDid) {
+    const std::string header = responseHeader(), row = responseLine(sampleResponse(1, "c1", true));
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = row;
+        text.replace(text.find(from), from.size(), to);
+        return errorOf(header + text);
+    };
+    using testing::HasSubstr;
+    EXPECT_THAT(changed("4000.000", "\"4000,000\""), HasSubstr("decimal comma: write a point"));
+    EXPECT_THAT(changed(",0,1,1,", ",FALSE,1,1,"), HasSubstr("write 1 for true, 0 for false"));
+    EXPECT_THAT(changed(std::string(64, 'd'), "1.93E+63"), HasSubstr("take the original file"));
+    EXPECT_THAT(changed("4000.000", " 4000"), HasSubstr("remove the blanks"));
+    EXPECT_THAT(errorOf(header + row + header), HasSubstr(":3: the header stands here again"));
+    EXPECT_THAT(errorOf("# by x\n" + header + row), HasSubstr(":1: expected the header, found a "
+                                                              "comment"));
+    EXPECT_THAT(errorOf("," + header), HasSubstr("pandas"));
+    EXPECT_THAT(errorOf("age," + header), HasSubstr(":1: age: unknown column; remove it"));
+    EXPECT_THAT(errorOf(header.substr(0, header.size() - 1) + ",\n"),
+                HasSubstr(":1:51: found a column without a name"));
+}
+
 TEST_F(Responses, RefuseATornHeader) {
     for (const std::string& content : {std::string(), responseHeader().substr(0, 40)}) {
         EXPECT_EQ(errorOf(content), ": expected a header line; the file ends before that line "
@@ -218,7 +277,7 @@ TEST_F(Responses, ReportEachBadRowWhenLenientAndKeepTheOthers) {
     Response bad = sampleResponse(2, "c1", true);
     bad.slotId = 0;
     const ResponseFile read = this->read(responseHeader() + responseLine(bad) +
-                                             responseLine(sampleResponse(1, "c1", true)) + "\n" +
+                                             responseLine(sampleResponse(1, "c1", true)) + "x\n" +
                                              responseLine(sampleResponse(3, "c1", true)),
                                          true);
     EXPECT_THAT(read.lines, ElementsAre(3, 5));
