@@ -15,18 +15,20 @@ using testing::HasSubstr;
 using testing::StartsWith;
 
 TEST(CsvFormatTest, AnotherFormatIsNamedInPlainWords) {
-    for (const auto& [text, words] : {std::pair{"\x1F\x8B\x08"sv, "gzip"},
-                                      {"PK\x03\x04 "sv, "xlsx"},
-                                      {"\xD0\xCF\x11\xE0 "sv, "xls"},
-                                      {"\xFF\xFE"
-                                       "a\0"sv,
-                                       "UTF-16"},
-                                      {"a\0,\0"sv, "UTF-16"},
-                                      {"\0a\0,"sv, "UTF-16"},
-                                      {" \n<html>"sv, "web page"},
-                                      {"a;b\n1;2\n"sv, "semicolons"},
-                                      {"a\tb\n"sv, "tabs"},
-                                      {"a,b\r1,2\r"sv, "CR alone"}}) {
+    for (const auto& each : {std::pair{"\x1F\x8B\x08"sv, "gzip"},
+                             {"PK\x03\x04 "sv, "xlsx"},
+                             {"\xD0\xCF\x11\xE0 "sv, "xls"},
+                             {"\xFF\xFE"
+                              "a\0"sv,
+                              "UTF-16"},
+                             {"a\0,\0"sv, "UTF-16"},
+                             {"\0a\0,"sv, "UTF-16"},
+                             {" \n<html>"sv, "web page"},
+                             {"a;b\n1;2\n"sv, "semicolons"},
+                             {"a\tb\n"sv, "tabs"},
+                             {"a,b\r1,2\r"sv, "CR alone"}}) {
+        const std::string_view text = each.first;
+        const std::string words = each.second;
         const std::string error = test::errorOf([&] { checkIsCsv(text, "x.csv"); });
         EXPECT_THAT(error, StartsWith("x.csv:1: expected"));
         EXPECT_THAT(error, HasSubstr(words));

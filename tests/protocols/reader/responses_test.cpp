@@ -236,7 +236,7 @@ TEST_F(Responses, RefuseForeignBytesAndStrayNames) {
     EXPECT_THAT(fault(&Response::conditionId, "c1\xC2\xA0"), HasSubstr("expected \"c1\""));
     EXPECT_THAT(fault(&Response::level, "\xE2\x80\x8Blow"), HasSubstr("expected \"low\""));
     EXPECT_THAT(fault(&Response::participantId, "1.00E+05"), HasSubstr("a spreadsheet"));
-    EXPECT_EQ(errorOf(responseHeader()), "no error");
+    EXPECT_NO_THROW(read(responseHeader()));
     Response accented = sampleResponse(1, "c1", true);
     accented.scene = "caf\xC3\xA9 \xE7\x92\xB0";
     EXPECT_EQ(read(responseHeader() + responseLine(accented)).rows.size(), 1u);
