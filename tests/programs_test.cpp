@@ -64,7 +64,8 @@ TEST(Programs, TakeRightArguments) {
           "obscura-render --technique hbao --set steps=4 --set blur=0" + small,
           "obscura-render --technique gtao --preset low" + small,
           "obscura-render --near 0.01 --fov 60 --exposure -1.5" + small,
-          std::string("obscura-analysis --counts '" OBSCURA_SOURCE "/analysis/thesis_table4.csv'"),
+          std::string("obscura-analysis --out @/report --counts '" OBSCURA_SOURCE
+                      "/analysis/thesis_table4.csv'"),
           "obscura-bench passes 'hbao steps=4 blur=0' --seconds 0 --width 64 --height 36" +
               camera}) {
         const Outcome outcome = run(replaced(arguments, "@", folder.path().string()));
