@@ -19,7 +19,8 @@ constexpr std::string_view style =
          font-weight: bold; padding: .6rem 1rem; margin: 1rem 0; }
 figure svg, figure img { width: 100%; height: auto; }
 .differs td { background: #DCEBF5; }
-.hash { font-family: monospace; overflow-wrap: anywhere; }
+.fact { overflow-wrap: anywhere; }
+.hash { font-family: monospace; }
 @media print { .stamp, .differs td { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
 )";
 
@@ -112,8 +113,8 @@ std::string stimuliSection(const Manifest& stimuli) {
 
 std::string factRow(const Fact& fact) {
     const bool isHash = fact.name.find("SHA-256") != std::string::npos;
-    return fmt::format("<tr><th scope=\"row\">{}</th><td{}>{}</td></tr>\n", escaped(fact.name),
-                       isHash ? " class=\"hash\"" : "", escaped(fact.text));
+    return fmt::format("<tr><th scope=\"row\">{}</th><td class=\"fact{}\">{}</td></tr>\n",
+                       escaped(fact.name), isHash ? " hash" : "", escaped(fact.text));
 }
 
 std::string unreadable(const std::vector<BadRow>& rows) {
