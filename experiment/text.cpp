@@ -1,13 +1,13 @@
 #include "experiment/text.h"
 
 #include "base/error.h"
+#include "image/canvas.h"
 
 #include <fmt/format.h>
 #include <pango/pangocairo.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -24,8 +24,6 @@ struct Call {
         function(object);
     }
 };
-using Surface = std::unique_ptr<cairo_surface_t, Call<cairo_surface_destroy>>;
-using Cairo = std::unique_ptr<cairo_t, Call<cairo_destroy>>;
 using Layout = std::unique_ptr<PangoLayout, Call<g_object_unref>>;
 using Font = std::unique_ptr<PangoFontDescription, Call<pango_font_description_free>>;
 using LayoutIter = std::unique_ptr<PangoLayoutIter, Call<pango_layout_iter_free>>;
@@ -324,21 +322,6 @@ std::optional<std::vector<Box>> trySize(cairo_t* cairo, const Page& page, const 
     return place(setter, page, std::round(top + margin + 0.45 * (room - content))).options;
 }
 
-Image8 rgb(cairo_surface_t* surface, int width, int height) {
-    cairo_surface_flush(surface);
-    const unsigned char* data = cairo_image_surface_get_data(surface);
-    const int stride = cairo_image_surface_get_stride(surface);
-    Image8 image{width, height, 3, {}};
-    image.pixels.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3);
-    for (int y = 0; y < height; ++y) {
-        const auto* row = reinterpret_cast<const std::uint32_t*>(data + std::ptrdiff_t{y} * stride);
-        for (int x = 0; x < width; ++x)
-            for (const int shift : {16, 8, 0})
-                image.pixels.push_back(static_cast<std::uint8_t>(row[x] >> shift));
-    }
-    return image;
-}
-
 // What a page says, in short and on one line.
 std::string opening(const Page& page) {
     std::string words = page.heading.empty() ? page.text : page.heading;
@@ -367,24 +350,18 @@ bool isControl(char c) {
 } // namespace
 
 DrawnPage drawPage(const Page& page, int width, int height, int grey) {
-    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
-    const Cairo cairo(cairo_create(surface.get()));
-    if (const cairo_status_t status = cairo_status(cairo.get()); status != CAIRO_STATUS_SUCCESS)
-        throw Error(fmt::format("a page of {}x{} pixels cannot be drawn: {}", width, height,
-                                cairo_status_to_string(status)));
+    const Palette palette = paletteFor(grey);
+    const Canvas canvas(width, height, palette.paper);
     const FontOptions fontOptions(cairo_font_options_create());
     cairo_font_options_set_antialias(fontOptions.get(), CAIRO_ANTIALIAS_GRAY);
     cairo_font_options_set_hint_style(fontOptions.get(), CAIRO_HINT_STYLE_SLIGHT);
-    cairo_set_font_options(cairo.get(), fontOptions.get());
-    const Palette palette = paletteFor(grey);
-    cairo_set_source_rgb(cairo.get(), palette.paper, palette.paper, palette.paper);
-    cairo_paint(cairo.get());
+    cairo_set_font_options(canvas.cairo(), fontOptions.get());
 
     const double largest = std::max(smallestType, std::min(height / 27.0, width / 40.0));
     for (int percent = 100; percent >= 60; percent -= 5) {
         const double em = std::max(smallestType, std::round(largest * percent / 100));
-        if (auto options = trySize(cairo.get(), page, palette, width, height, em))
-            return {rgb(surface.get(), width, height), std::move(*options)};
+        if (auto options = trySize(canvas.cairo(), page, palette, width, height, em))
+            return {canvas.finish(), std::move(*options)};
     }
     throw Error(fmt::format("a text is too long for a screen of {}x{} pixels, even in small type: "
                             "{}; shorten it in the protocol, or take a larger screen",
@@ -393,9 +370,8 @@ DrawnPage drawPage(const Page& page, int width, int height, int grey) {
 
 // Where a font lacks a character, Pango's glyph is the character itself with a flag.
 std::vector<std::string> unshowable(const std::string& text) {
-    const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
-    const Cairo cairo(cairo_create(surface.get()));
-    const Layout layout = layOut(cairo.get(), text, 2 * smallestType, false);
+    const Canvas canvas(1, 1);
+    const Layout layout = layOut(canvas.cairo(), text, 2 * smallestType, false);
     std::set<char32_t> missing;
     for (const char c : text)
         if (isControl(c))

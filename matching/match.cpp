@@ -2,7 +2,7 @@
 
 #include "base/files.h"
 #include "base/version.h"
-#include "image/page.h"
+#include "image/canvas.h"
 #include "matching/fit.h"
 #include "matching/match_files.h"
 #include "matching/match_sheet.h"

@@ -14,6 +14,8 @@ using nlohmann::json;
 
 namespace {
 
+constexpr int formatVersion = 1; // of a finished technique's file; others are measured again
+
 std::string numbers(const ImageError& e) {
     return fmt::format("{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}", e.rmse, e.bias, e.biasFree, e.ssim,
                        e.meanOcclusion);
@@ -130,6 +132,8 @@ std::optional<MatchedTechnique> FinishedTechniques::find(const std::string& key)
         return std::nullopt;
     try {
         const json root = json::parse(readFile(path(key)));
+        if (root.at("formatVersion") != formatVersion)
+            return std::nullopt;
         MatchedTechnique technique;
         technique.fitted = root.at("fitted").get<std::map<std::string, double>>();
         technique.note = root.at("note");
@@ -145,8 +149,11 @@ void FinishedTechniques::add(const std::string& key, const MatchedTechnique& tec
     json rows = json::array();
     for (const MatchRow& row : technique.rows)
         rows.push_back(toJson(row));
-    writeFile(path(key),
-              json{{"fitted", technique.fitted}, {"note", technique.note}, {"rows", rows}}.dump(1));
+    writeFile(path(key), json{{"formatVersion", formatVersion},
+                              {"fitted", technique.fitted},
+                              {"note", technique.note},
+                              {"rows", rows}}
+                             .dump(1));
 }
 
 MatchSummary summaryOf(const std::vector<MatchRow>& rows, const std::string& reference,

@@ -1,6 +1,6 @@
 #include "matching/match_sheet.h"
 
-#include "image/page.h"
+#include "image/canvas.h"
 
 #include <fmt/format.h>
 
@@ -35,8 +35,8 @@ Image8 sheetOf(const std::string& title, const Image& reference,
     const auto column = [pitch = std::max(width, titleWidth) + gap](int i) {
         return margin + i * pitch;
     };
-    Page page(std::max(column(columns) - gap + margin, captionWidth),
-              header + margin + static_cast<int>(techniques.size()) * rowHeight);
+    Canvas page(std::max(column(columns) - gap + margin, captionWidth),
+                header + margin + static_cast<int>(techniques.size()) * rowHeight);
     page.text(margin, margin, "<b>" + escaped(title) + "</b>", 20);
     const char* titles[columns] = {"reference", "raw", "matched",
                                    "too dark (red), too light (blue)"};

@@ -1,12 +1,11 @@
 #pragma once
 
+#include "base/markup.h"
+
 #include <string>
 #include <string_view>
 
 namespace obscura {
-
-// Text as it must stand in HTML or XML, in elements and in quoted attributes.
-std::string escaped(std::string_view text);
 
 // <name>text</name>, the text escaped, and a line feed.
 std::string element(std::string_view name, std::string_view text);

@@ -52,10 +52,10 @@ fault torn-rows base/csv.cpp \
     's#record\.ended = take\("\\n"\) .*#record.ended = take("\\n") || take("\\r\\n") || atEnd();#' \
     protocols_test 'Responses.*:Csv.*'
 
-fault surface-unchecked image/page.cpp \
+fault surface-unchecked image/canvas.cpp \
     's|std::max\(width, height\) > mostPixels|false|' \
     image_test 'Page.*'
-fault pages-forgotten image/page.cpp \
+fault pages-forgotten image/canvas.cpp \
     's|tallestPage = 16000|tallestPage = 160000|' \
     matching_test 'MatchSheet.*'
 

@@ -1,6 +1,6 @@
 #include "stimuli/contact_sheet.h"
 
-#include "image/page.h"
+#include "image/canvas.h"
 
 #include <fmt/format.h>
 
@@ -45,8 +45,8 @@ std::string captionOf(const PairRecord& pair) {
 Image8 sheetOf(const Manifest& manifest, const std::string& title, const PageRows& rows) {
     const auto [width, height] = thumbnailOf(manifest);
     const int rowHeight = caption + height + gap;
-    Page page(2 * margin + columns * (widest + gap) - gap,
-              header + margin + static_cast<int>(rows.last - rows.first) * rowHeight);
+    Canvas page(2 * margin + columns * (widest + gap) - gap,
+                header + margin + static_cast<int>(rows.last - rows.first) * rowHeight);
     const auto column = [](int i) { return margin + i * (widest + gap); };
     page.text(margin, margin, fmt::format("<b>{}</b>", escaped(title)), 22);
     const char* titles[columns] = {"image a", "image b", "visibility a", "visibility b",

@@ -2,7 +2,7 @@
 
 #include "base/files.h"
 #include "base/version.h"
-#include "image/page.h"
+#include "image/canvas.h"
 #include "protocols/reader/design.h"
 #include "stimuli/contact_sheet.h"
 #include "stimuli/plan.h"

@@ -1,6 +1,6 @@
 #include "bench/motion/temporal_pictures.h"
 
-#include "image/page.h"
+#include "image/canvas.h"
 
 #include <fmt/format.h>
 
@@ -47,8 +47,8 @@ Image8 strip(std::span<const Image> images) {
 Image8 animationFrame(std::span<const AnimatedRow> rows, const Image& truth) {
     const int factor = std::max(1, 400 / truth.width);
     const int width = truth.width * factor, height = truth.height * factor;
-    Page page(3 * width + 4 * gap,
-              static_cast<int>(rows.size()) * (height + textHeight + gap) + gap);
+    Canvas page(3 * width + 4 * gap,
+                static_cast<int>(rows.size()) * (height + textHeight + gap) + gap);
     for (int i = 0; const AnimatedRow& row : rows) {
         const int y = gap + i++ * (height + textHeight + gap);
         const std::string titles[] = {row.title, "ray traced",

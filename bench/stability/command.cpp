@@ -54,6 +54,7 @@ std::vector<std::string> asked(std::vector<std::string> all,
 // All that decides the numbers besides tests and configurations.
 std::string aboutOf(const Options& options, const gl::Driver& driver) {
     nlohmann::ordered_json about;
+    about["formatVersion"] = 1;
     about["program"] = programName();
     about["renderer"] = driver.renderer;
     about["glVersion"] = driver.version;

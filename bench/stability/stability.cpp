@@ -5,7 +5,7 @@
 #include "bench/stability/csv.h"
 #include "bench/stability/failure_test.h"
 #include "bench/stability/page.h"
-#include "image/page.h"
+#include "image/canvas.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -19,6 +19,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr int newestVersion = 1; // of the folder's files; those without a number are of version 1
+
 // Every field with its name, once for writing and reading; Row may be const.
 
 template <typename Fields, typename Visit>
@@ -165,6 +167,12 @@ SweepMachine readMachine(const fs::path& path) {
     SweepMachine machine;
     try {
         const auto root = nlohmann::json::parse(readFile(path));
+        if (const int found = root.value("formatVersion", newestVersion);
+            found < 1 || found > newestVersion)
+            throw Error({file, 0, 0, "formatVersion"},
+                        fmt::format("expected 1 ... {}, found {}; a later obscura-bench wrote this "
+                                    "sweep, and reads it",
+                                    newestVersion, found));
         eachField(machine, [&](const std::string& name, std::string& value) {
             if (!root.contains(name) || !root[name].is_string())
                 throw Error({file, 0, 0, name},
@@ -181,6 +189,7 @@ SweepMachine readMachine(const fs::path& path) {
 
 std::string machineJson(const SweepMachine& machine) {
     nlohmann::ordered_json root;
+    root["formatVersion"] = newestVersion;
     eachField(machine, [&](const auto& name, const std::string& value) { root[name] = value; });
     root["rows"] = machine.rows;
     return root.dump(2) + "\n";

@@ -9,7 +9,7 @@
 #include "bench/sweep/figures.h"
 #include "bench/sweep/files.h"
 #include "bench/sweep/page.h"
-#include "image/page.h"
+#include "image/canvas.h"
 #include "matching/match.h"
 #include "renderer/techniques/fetches.h"
 

@@ -82,6 +82,27 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
+// Characters without width that no script needs, and marks of direction. (Joiners, U+200C and
+// U+200D, belong to Persian, Indic scripts and emoji.)
+constexpr std::array<std::string_view, 15> unseen = {
+    "\xC2\xAD",     "\xE2\x80\x8B", "\xE2\x80\x8E", "\xE2\x80\x8F", "\xE2\x80\xAA",
+    "\xE2\x80\xAB", "\xE2\x80\xAC", "\xE2\x80\xAD", "\xE2\x80\xAE", "\xE2\x81\xA0",
+    "\xE2\x81\xA6", "\xE2\x81\xA7", "\xE2\x81\xA8", "\xE2\x81\xA9", "\xEF\xBB\xBF"};
+
+std::string withoutUnseen(std::string_view name) {
+    std::string seen;
+    for (std::size_t at = 0; at < name.size();) {
+        const std::string_view rest = name.substr(at);
+        const auto found = std::find_if(unseen.begin(), unseen.end(), [&](std::string_view mark) {
+            return rest.starts_with(mark);
+        });
+        if (found == unseen.end())
+            seen += name[at];
+        at += found == unseen.end() ? 1 : found->size();
+    }
+    return seen;
+}
+
 bool matches(std::string_view cell, const char* pattern) {
     return cell.size() < 100 && std::regex_match(cell.begin(), cell.end(), std::regex(pattern));
 }
@@ -112,6 +133,10 @@ std::string strayName(std::string_view name) {
         return fmt::format("expected \"{}\", found \"{}\", with blanks (perhaps invisible) at its "
                            "ends, which would make another name of it; remove them",
                            bare, name);
+    if (const std::string seen = withoutUnseen(name); seen != name)
+        return fmt::format("expected \"{}\", found \"{}\", with characters in it that nobody sees, "
+                           "which make another name of it; type it anew",
+                           seen, name);
     if (isScientific(name))
         return fmt::format("expected a name, found \"{}\"{}", name, cellHint(name));
     return {};

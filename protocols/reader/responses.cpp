@@ -29,7 +29,12 @@ bool positive(const R& r) {
 }
 template <auto field>
 bool notNegative(const R& r) {
-    return std::isfinite(static_cast<double>(r.*field)) && r.*field >= 0;
+    return r.*field >= 0;
+}
+// Milliseconds of a session, whose clock starts with it: eleven days are no session.
+template <auto field>
+bool duration(const R& r) {
+    return r.*field >= 0 && r.*field <= 1e9; // false for NaN
 }
 template <auto field>
 bool digest(const R& r) {
@@ -44,7 +49,7 @@ bool isUtcTime(std::string_view given) {
 }
 
 constexpr std::string_view text = "text", some = "text, not empty", flag = "0 or 1",
-                           count = "a whole number >= 1", number = "a number >= 0",
+                           count = "a whole number >= 1", milliseconds = "a number from 0 to 1e9",
                            whole = "a whole number >= 0", hash = "64 hexadecimal digits";
 
 const Column columns[] = {
@@ -87,26 +92,26 @@ const Column columns[] = {
     {"sha256_second", "SHA-256 of that file", &R::sha256Second, hash, digest<&R::sha256Second>},
     {"first_is", "Member shown first", &R::firstIs, "a or b",
      [](const R& r) { return r.firstIs == "a" || r.firstIs == "b"; }},
-    {"onset1_ms", "Onset of image 1 on the session's clock, ms", &R::onset1Ms, number,
-     notNegative<&R::onset1Ms>},
-    {"view1_ms", "Time image 1 was on view, ms", &R::view1Ms, number, notNegative<&R::view1Ms>},
+    {"onset1_ms", "Onset of image 1 on the session's clock, ms", &R::onset1Ms, milliseconds,
+     duration<&R::onset1Ms>},
+    {"view1_ms", "Time image 1 was on view, ms", &R::view1Ms, milliseconds, duration<&R::view1Ms>},
     {"mask_frames_planned", "Display refreshes the grey mask should last", &R::maskFramesPlanned,
      count, positive<&R::maskFramesPlanned>},
     {"mask_frames_shown", "Display refreshes it lasted", &R::maskFramesShown, whole,
      notNegative<&R::maskFramesShown>},
-    {"mask_ms", "Time the mask was on view, ms", &R::maskMs, number, notNegative<&R::maskMs>},
-    {"onset2_ms", "Onset of image 2 on the session's clock, ms", &R::onset2Ms, number,
-     notNegative<&R::onset2Ms>},
-    {"view2_ms", "Time image 2 was on view, ms", &R::view2Ms, number, notNegative<&R::view2Ms>},
+    {"mask_ms", "Time the mask was on view, ms", &R::maskMs, milliseconds, duration<&R::maskMs>},
+    {"onset2_ms", "Onset of image 2 on the session's clock, ms", &R::onset2Ms, milliseconds,
+     duration<&R::onset2Ms>},
+    {"view2_ms", "Time image 2 was on view, ms", &R::view2Ms, milliseconds, duration<&R::view2Ms>},
     {"question_onset_ms", "Onset of the question on the session's clock, ms", &R::questionOnsetMs,
-     number, notNegative<&R::questionOnsetMs>},
-    {"decision_rt_ms", "Time from question to answer, ms", &R::decisionRtMs, number,
-     notNegative<&R::decisionRtMs>},
+     milliseconds, duration<&R::questionOnsetMs>},
+    {"decision_rt_ms", "Time from question to answer, ms", &R::decisionRtMs, milliseconds,
+     duration<&R::decisionRtMs>},
     {"refresh_hz",
      "Refresh rate measured at the start; the pacing clock's where there is no "
      "vertical blank",
-     &R::refreshHz, "a number > 0",
-     [](const R& r) { return std::isfinite(r.refreshHz) && r.refreshHz > 0; }},
+     &R::refreshHz, "a number from 1 to 10000",
+     [](const R& r) { return r.refreshHz >= 1 && r.refreshHz <= 10000; }},
     {"missed_frames", "Frame intervals above 1.2 refreshes during the mask", &R::missedFrames,
      whole, notNegative<&R::missedFrames>},
     {"timestamp_source",
@@ -277,6 +282,11 @@ ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
         return result;
     }
     result.version = versionOf(records.front());
+    if (const auto& names = records.front().cells;
+        std::count(names.begin(), names.end(), "votes_a"))
+        throw Error({file, records.front().line, 0, "votes_a"},
+                    "expected the rows of participants, found a table of counted votes; give it as "
+                    "--counts FILE");
     const std::vector<Column> list = responseColumns(result.version);
     checkHeader(records.front(), namesOf(list), file);
     for (const CsvRecord& record : std::span(records).subspan(1)) {

@@ -218,7 +218,7 @@ TEST(Text, AScreenTooSmallToReadOnIsRefused) {
                 testing::ThrowsMessage<Error>(
                     testing::HasSubstr("too long for a screen of 120x60 pixels")));
     EXPECT_THAT([] { drawPage(thanksPage(texts), 40000, 100, 128); },
-                testing::ThrowsMessage<Error>(testing::HasSubstr("40000x100")));
+                testing::ThrowsMessage<Error>(testing::HasSubstr("40000 x 100")));
 }
 
 // U+0378 has never been assigned, so that no font has it.

@@ -103,6 +103,8 @@ TEST_F(SweepFiles, NameThePlaceOfAFault) {
     EXPECT_THAT(errorAfter("sweep.json", "\"vendor\"", "\"seller\""),
                 HasSubstr("s/sweep.json: vendor: expected a text of this name, found none"));
     EXPECT_THAT(errorAfter("sweep.json", ",", ";"), HasSubstr("line 2, column"));
+    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 1", "\"formatVersion\": 2"),
+                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 1, found 2; a later"));
 }
 
 TEST_F(SweepFiles, RefuseALineThatWasCutOff) {

@@ -91,6 +91,20 @@ TEST_F(Responses, AreReadFromASpreadsheetsFile) {
     EXPECT_EQ(read(content).rows.at(0).wallTimeUtc, "2026-01-31T23:59:59Z");
 }
 
+TEST_F(Responses, KeepTheJoinersThatScriptsNeed) {
+    Response row = sampleResponse(1, "c1", true);
+    row.participantId = "می\u200Cخواهم";
+    EXPECT_EQ(read(responseHeader() + responseLine(row)).rows.at(0).participantId,
+              row.participantId);
+}
+
+TEST_F(Responses, SayHowATableOfVotesIsRead) {
+    EXPECT_EQ(
+        errorOf("condition_id,level,scene,tech_a,tech_b,hypothesis,votes_a,votes_b\n"),
+        ":1: votes_a: expected the rows of participants, found a table of counted votes; give "
+        "it as --counts FILE");
+}
+
 TEST_F(Responses, NameFileLineColumnAndWhatWasExpected) {
     Response row = sampleResponse(2, "c1", true);
     row.trialIndex = 0;
@@ -124,11 +138,19 @@ const Fault faults[] = {
      "24: sha256_first: expected 64 hexadecimal digits, found \"abc\""},
     {"first", [](Response& r) { r.firstIs = "c"; }, "26: first_is: expected a or b, found \"c\""},
     {"negative", [](Response& r) { r.view1Ms = -1; },
-     "28: view1_ms: expected a number >= 0, found \"-1.000\""},
+     "28: view1_ms: expected a number from 0 to 1e9, found \"-1.000\""},
     {"nan", [](Response& r) { r.view2Ms = std::nan(""); },
-     "33: view2_ms: expected a number >= 0, found \"nan\""},
+     "33: view2_ms: expected a number from 0 to 1e9, found \"nan\""},
+    {"endless", [](Response& r) { r.decisionRtMs = 1e10; },
+     "35: decision_rt_ms: expected a number from 0 to 1e9, found \"10000000000.000\""},
+    {"unseen", [](Response& r) { r.participantId = "S\u200B01"; },
+     "4: participant_id: expected \"S01\", found \"S\u200B01\", with characters in it that nobody "
+     "sees, which make another name of it; type it anew"},
+    {"mirrored", [](Response& r) { r.conditionId = "c\u202E1"; },
+     "14: condition_id: expected \"c1\", found \"c\u202E1\", with characters in it that nobody "
+     "sees, which make another name of it; type it anew"},
     {"infinite", [](Response& r) { r.refreshHz = HUGE_VAL; },
-     "36: refresh_hz: expected a number > 0, found \"inf\""},
+     "36: refresh_hz: expected a number from 1 to 10000, found \"inf\""},
     {"position", [](Response& r) { r.chosenPosition = 3; },
      "39: chosen_position: expected 1 or 2, found \"3\""},
     {"technique", [](Response& r) { r.chosenTechnique = "none"; },

@@ -1,4 +1,4 @@
-#include "image/page.h"
+#include "image/canvas.h"
 #include "tests/error_of.h"
 
 #include <gmock/gmock.h>
@@ -8,11 +8,11 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Page, RefusesWhatCairoCannotDraw) {
-    EXPECT_THAT(test::errorOf([] { Page(100, 32768); }), HasSubstr("found 100 x 32768"));
-    EXPECT_THAT(test::errorOf([] { Page(40000, 100); }), HasSubstr("found 40000 x 100"));
-    EXPECT_THAT(test::errorOf([] { Page(0, 100); }), HasSubstr("found 0 x 100"));
-    EXPECT_EQ(Page(2, 32767).finish().pixels.size(), 2u * 32767u * 3u);
+TEST(Canvas, RefusesWhatCairoCannotDraw) {
+    EXPECT_THAT(test::errorOf([] { Canvas(100, 32768); }), HasSubstr("found 100 x 32768"));
+    EXPECT_THAT(test::errorOf([] { Canvas(40000, 100); }), HasSubstr("found 40000 x 100"));
+    EXPECT_THAT(test::errorOf([] { Canvas(0, 100); }), HasSubstr("found 0 x 100"));
+    EXPECT_EQ(Canvas(2, 32767).finish().pixels.size(), 2u * 32767u * 3u);
 }
 
 TEST(Pages, HoldEveryRowOnce) {

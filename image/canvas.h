@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/markup.h"
 #include "image/image.h"
 
 #include <cstddef>
@@ -7,15 +8,20 @@
 #include <string>
 #include <vector>
 
+struct _cairo;
+
 namespace obscura {
 
-// A white page of pictures and words (Cairo and Pango). A page that Cairo cannot make is an Error:
-// one of more than 32,767 pixels across or down, for instance, of which Cairo makes a surface
-// without data that says so only when asked.
-class Page {
+// A page of pictures and words (Cairo and Pango), white unless told. A page that Cairo cannot make
+// is an Error: one of more than 32,767 pixels across or down, for instance, of which Cairo makes a
+// surface without data that says so only when asked.
+class Canvas {
   public:
-    Page(int width, int height);
-    ~Page();
+    Canvas(int width, int height, double grey = 1); // sRGB, 0 ... 1
+    ~Canvas();
+
+    // For what sets type and draws by itself.
+    _cairo* cairo() const;
 
     // Pango markup; the size is in pixels.
     void text(int x, int y, const std::string& markup, int size);
@@ -27,8 +33,8 @@ class Page {
     Image8 finish() const;
 
   private:
-    struct Canvas;
-    std::unique_ptr<Canvas> canvas_;
+    struct Owned;
+    std::unique_ptr<Owned> owned_;
 };
 
 // A long table is cut into pages of whole rows, as even as can be and at most 16,000 pixels high
@@ -54,8 +60,5 @@ Image8 signedError(const Image& image, const Image& reference, float full);
 Image8 shrunk(const Image8& from, int width, int height);
 
 Image8 sideBySide(const Image8& left, const Image8& right); // of one height, with a gap
-
-// Text that stands for itself in markup.
-std::string escaped(const std::string& text);
 
 } // namespace obscura

@@ -1,4 +1,4 @@
-#include "image/page.h"
+#include "image/canvas.h"
 
 #include "base/error.h"
 
@@ -19,7 +19,7 @@ struct Destroy {
     void operator()(PangoFontDescription* font) const { pango_font_description_free(font); }
 };
 template <typename T>
-using Owned = std::unique_ptr<T, Destroy>;
+using Held = std::unique_ptr<T, Destroy>;
 
 constexpr int mostPixels = 32767; // across or down, of a Cairo surface
 constexpr int tallestPage = 16000;
@@ -32,42 +32,44 @@ void check(cairo_status_t status, int width, int height) {
 
 } // namespace
 
-struct Page::Canvas {
-    Owned<cairo_surface_t> surface;
-    Owned<cairo_t> cairo;
+struct Canvas::Owned {
+    Held<cairo_surface_t> surface;
+    Held<cairo_t> cairo;
 };
 
-Page::Page(int width, int height) {
+Canvas::Canvas(int width, int height, double grey) {
     if (std::min(width, height) < 1 || std::max(width, height) > mostPixels)
         throw Error(fmt::format("expected a page of 1 to {} pixels across and down, found {} x {}",
                                 mostPixels, width, height));
-    Owned<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
+    Held<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
     check(cairo_surface_status(surface.get()), width, height);
-    Owned<cairo_t> cairo(cairo_create(surface.get()));
+    Held<cairo_t> cairo(cairo_create(surface.get()));
     check(cairo_status(cairo.get()), width, height);
-    cairo_set_source_rgb(cairo.get(), 1, 1, 1);
+    cairo_set_source_rgb(cairo.get(), grey, grey, grey);
     cairo_paint(cairo.get());
-    canvas_.reset(new Canvas{std::move(surface), std::move(cairo)});
+    owned_.reset(new Owned{std::move(surface), std::move(cairo)});
 }
-Page::~Page() = default;
+Canvas::~Canvas() = default;
 
-void Page::text(int x, int y, const std::string& markup, int size) {
-    const Owned<PangoLayout> layout(pango_cairo_create_layout(canvas_->cairo.get()));
-    const Owned<PangoFontDescription> font(
+cairo_t* Canvas::cairo() const { return owned_->cairo.get(); }
+
+void Canvas::text(int x, int y, const std::string& markup, int size) {
+    const Held<PangoLayout> layout(pango_cairo_create_layout(owned_->cairo.get()));
+    const Held<PangoFontDescription> font(
         pango_font_description_from_string(fmt::format("DejaVu Sans {}px", size).c_str()));
     pango_layout_set_font_description(layout.get(), font.get());
     pango_layout_set_markup(layout.get(), markup.c_str(), -1);
-    cairo_set_source_rgb(canvas_->cairo.get(), 0.1, 0.1, 0.1);
-    cairo_move_to(canvas_->cairo.get(), x, y);
-    pango_cairo_show_layout(canvas_->cairo.get(), layout.get());
+    cairo_set_source_rgb(owned_->cairo.get(), 0.1, 0.1, 0.1);
+    cairo_move_to(owned_->cairo.get(), x, y);
+    pango_cairo_show_layout(owned_->cairo.get(), layout.get());
 }
 
-void Page::image(int x, int y, const Image8& image) {
-    assert(x >= 0 && x + image.width <= cairo_image_surface_get_width(canvas_->surface.get()));
-    assert(y >= 0 && y + image.height <= cairo_image_surface_get_height(canvas_->surface.get()));
-    cairo_surface_flush(canvas_->surface.get());
-    unsigned char* data = cairo_image_surface_get_data(canvas_->surface.get());
-    const int stride = cairo_image_surface_get_stride(canvas_->surface.get());
+void Canvas::image(int x, int y, const Image8& image) {
+    assert(x >= 0 && x + image.width <= cairo_image_surface_get_width(owned_->surface.get()));
+    assert(y >= 0 && y + image.height <= cairo_image_surface_get_height(owned_->surface.get()));
+    cairo_surface_flush(owned_->surface.get());
+    unsigned char* data = cairo_image_surface_get_data(owned_->surface.get());
+    const int stride = cairo_image_surface_get_stride(owned_->surface.get());
     for (int row = 0; row < image.height; ++row)
         for (int column = 0; column < image.width; ++column) {
             unsigned char* to = data + (y + row) * stride + (x + column) * 4;
@@ -77,26 +79,28 @@ void Page::image(int x, int y, const Image8& image) {
             to[1] = from[1];
             to[2] = from[0];
         }
-    cairo_surface_mark_dirty(canvas_->surface.get());
+    cairo_surface_mark_dirty(owned_->surface.get());
 }
 
-void Page::frame(int x, int y, int width, int height) {
-    cairo_set_source_rgb(canvas_->cairo.get(), 0.7, 0.7, 0.7);
-    cairo_set_line_width(canvas_->cairo.get(), 1);
-    cairo_rectangle(canvas_->cairo.get(), x - 0.5, y - 0.5, width + 1, height + 1);
-    cairo_stroke(canvas_->cairo.get());
+void Canvas::frame(int x, int y, int width, int height) {
+    cairo_set_source_rgb(owned_->cairo.get(), 0.7, 0.7, 0.7);
+    cairo_set_line_width(owned_->cairo.get(), 1);
+    cairo_rectangle(owned_->cairo.get(), x - 0.5, y - 0.5, width + 1, height + 1);
+    cairo_stroke(owned_->cairo.get());
 }
 
-Image8 Page::finish() const {
-    cairo_surface_flush(canvas_->surface.get());
-    Image8 page{cairo_image_surface_get_width(canvas_->surface.get()),
-                cairo_image_surface_get_height(canvas_->surface.get()),
+Image8 Canvas::finish() const {
+    cairo_surface_flush(owned_->surface.get());
+    Image8 page{cairo_image_surface_get_width(owned_->surface.get()),
+                cairo_image_surface_get_height(owned_->surface.get()),
                 3,
                 {}};
-    check(cairo_status(canvas_->cairo.get()), page.width, page.height);
-    check(cairo_surface_status(canvas_->surface.get()), page.width, page.height);
-    const unsigned char* data = cairo_image_surface_get_data(canvas_->surface.get());
-    const int stride = cairo_image_surface_get_stride(canvas_->surface.get());
+    check(cairo_status(owned_->cairo.get()), page.width, page.height);
+    check(cairo_surface_status(owned_->surface.get()), page.width, page.height);
+    const unsigned char* data = cairo_image_surface_get_data(owned_->surface.get());
+    const int stride = cairo_image_surface_get_stride(owned_->surface.get());
+    page.pixels.reserve(static_cast<std::size_t>(page.width) *
+                        static_cast<std::size_t>(page.height) * 3);
     for (int row = 0; row < page.height; ++row)
         for (int column = 0; column < page.width; ++column)
             for (const int byte : {2, 1, 0})
@@ -162,16 +166,10 @@ Image8 shrunk(const Image8& from, int width, int height) {
 
 Image8 sideBySide(const Image8& left, const Image8& right) {
     constexpr int gap = 4;
-    Page page(left.width + gap + right.width, left.height);
+    Canvas page(left.width + gap + right.width, left.height);
     page.image(0, 0, left);
     page.image(left.width + gap, 0, right);
     return page.finish();
-}
-
-std::string escaped(const std::string& text) {
-    const std::unique_ptr<char, decltype(&g_free)> result(g_markup_escape_text(text.c_str(), -1),
-                                                          &g_free);
-    return result.get();
 }
 
 } // namespace obscura
