@@ -52,9 +52,15 @@ fault torn-rows base/csv.cpp \
     's#record\.ended = take\("\\n"\) .*#record.ended = take("\\n") || take("\\r\\n") || atEnd();#' \
     protocols_test 'Responses.*:Csv.*'
 
+fault number-with-a-rest base/arguments.cpp \
+    's#!readCell\(number, result\.value\) \|\| ##' \
+    base_test 'NamedNumberTest.*'
+fault unseen-characters protocols/reader/cell_faults.cpp \
+    's#seen != name\)#seen.empty())#' \
+    protocols_test '*BadValue*'
 fault surface-unchecked image/canvas.cpp \
     's|std::max\(width, height\) > mostPixels|false|' \
-    image_test 'Page.*'
+    image_test 'Canvas.*'
 fault pages-forgotten image/canvas.cpp \
     's|tallestPage = 16000|tallestPage = 160000|' \
     matching_test 'MatchSheet.*'
@@ -97,6 +103,10 @@ fault shuffle-short base/random.h \
     's|below\(static_cast<std::uint32_t>\(i\)\)|below(static_cast<std::uint32_t>(i - 1))|' \
     base_test 'Random.*'
 
+fault signal-unheard experiment/signals.cpp \
+    's#if \(noted\)#if (noted \&\& !heeded[0])#' \
+    signals_e2e_test '*'
+
 # Of statistics and choices.
 fault votes-swapped analysis/votes.cpp \
     's|choseB \? votes\.b : votes\.a|choseB ? votes.a : votes.b|' \
@@ -110,3 +120,6 @@ fault other-images analysis/votes.cpp \
 fault front-of-equals bench/sweep/pareto.cpp \
     's|one\.milliseconds <= other\.milliseconds|one.milliseconds < other.milliseconds|' \
     sweep_test 'ParetoFront.*:DominatedBy.*'
+fault caution-silent analysis/findings.cpp \
+    's#if \(!caution\.empty\(\)\)#if (caution.size() > 100000)#' \
+    analysis_program_test 'Program.Cautions*'
