@@ -1,7 +1,6 @@
 #include "renderer/probe.h"
 
 #include "gl/context.h"
-#include "renderer/scene/proxies.h"
 
 namespace obscura {
 
@@ -33,14 +32,7 @@ struct Probe::Sight {
 };
 
 Subject::Subject(const Scene& scene)
-    : triangles_{scene.vertices, scene.indices, {}, {}, {}, {}, {}}, scene_(scene),
-      lighting_(whiteLight(), scene_, std::filesystem::path()) {}
-
-const ProxySpheres& Subject::spheres() const {
-    if (!spheres_)
-        spheres_.emplace(proxySpheres(triangles_));
-    return *spheres_;
-}
+    : spheres_(scene), scene_(scene), lighting_(whiteLight(), scene_, std::filesystem::path()) {}
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
              std::uint64_t seed, StoredDepth storedDepth)
@@ -87,20 +79,17 @@ OcclusionPasses Probe::passesFor(const Settings& settings, int beyond) const {
 const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& passes, int beyond,
                               const PassObserver& issued) const {
     const Sight& seen = sight(guardPixels(settings, height_) + beyond);
-    OcclusionInputs inputs{.gbuffer = seen.gbuffer, .frame = &seen.frame};
-    bindFrame(seen.frameBlock);
-    if (settings.technique().reads & light) {
+    const auto light = [&]() -> OcclusionInputs::Light {
         if (!seen.light) {
             seen.light.emplace(seen.gbuffer.target().width(), seen.gbuffer.target().height(),
                                false);
             subject_.lighting().draw(seen.gbuffer, *seen.light);
         }
-        inputs.light = &*seen.light;
-        inputs.lighting = &subject_.lighting();
-    }
-    if (settings.technique().reads & spheres)
-        inputs.spheres = &subject_.spheres();
-    return passes.visibility(inputs, issued);
+        return {*seen.light, subject_.lighting()};
+    };
+    bindFrame(seen.frameBlock);
+    return passes.visibility({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres())},
+                             issued);
 }
 
 Image Probe::visibility(const Settings& settings) const {

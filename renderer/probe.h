@@ -20,14 +20,13 @@ class Subject {
     const GpuScene& scene() const { return scene_; }
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
-    const ProxySpheres& spheres() const;
+    const SceneSpheres& spheres() const { return spheres_; }
 
   private:
-    Scene triangles_; // alone
+    SceneSpheres spheres_;
     GpuScene scene_;
     GBufferPass pass_;
     Lighting lighting_;
-    mutable std::optional<ProxySpheres> spheres_;
 };
 
 // One view of a subject, drawn once, to run techniques on again and again; what matching and

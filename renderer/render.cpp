@@ -5,7 +5,6 @@
 #include "renderer/builtin/builtin.h"
 #include "renderer/frame/composite.h"
 #include "renderer/reference/traced.h"
-#include "renderer/scene/proxies.h"
 #include "renderer/techniques/occlusion_passes.h"
 
 #include <fmt/format.h>
@@ -163,8 +162,8 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
 struct RecipeRenderer::Stage {
     std::string sceneSha256, lighting; // what is loaded; the latter as text
     std::optional<GpuScene> scene;
-    std::optional<ProxySpheres> spheres; // once a technique has read them
-    std::optional<RayTracer> tracer;     // once a technique has traced rays
+    std::optional<SceneSpheres> spheres;
+    std::optional<RayTracer> tracer; // once a technique has traced rays
     std::optional<Lighting> light;
     GBufferPass gbufferPass;
 };
@@ -199,13 +198,9 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
         load();
         warnings_ = scene->warnings;
         namedAt(recipe.view.place, [&] { stage_->scene.emplace(*scene); });
+        stage_->spheres.emplace(*scene);
         stage_->sceneSha256 = recipe.sceneSha256;
         stage_->lighting.clear();
-    }
-    if ((technique(recipe.technique).reads & spheres) && !stage_->spheres) {
-        if (!scene)
-            load();
-        stage_->spheres.emplace(proxySpheres(*scene));
     }
     if ((technique(recipe.technique).reads & rays) && !stage_->tracer) {
         if (!scene)
@@ -244,8 +239,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
     const int guard = guardPixels(settings, recipe.height);
     GBufferContent content;
     content.shadingNormal = lighting.readsNormals();
-    if (settings.technique().reads & normals)
-        content.occlusionNormal = recipe.normals;
+    content.occlusionNormal = normalsFor(settings.technique(), recipe.normals);
     const GBuffer gbuffer(recipe.width, recipe.height, content);
     // What the technique sees, where that is more than the image shows.
     std::optional<GBuffer> padded;
@@ -303,8 +297,11 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
         bindFrame(wideBlock ? *wideBlock : block);
         const gl::Texture& visibility =
             traced ? *traced
-                   : occlusion.visibility({padded ? *padded : gbuffer, &light, &lighting,
-                                           stage_->spheres ? &*stage_->spheres : nullptr, &seen});
+                   : occlusion.visibility({padded ? *padded : gbuffer, seen,
+                                           [&]() -> OcclusionInputs::Light {
+                                               return {light, lighting};
+                                           },
+                                           std::cref(*stage_->spheres)});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard);
         clock.mark(times_.composite);

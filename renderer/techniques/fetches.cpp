@@ -20,11 +20,11 @@ FetchCount declarationOf(const Settings& settings, const Pass& pass, int level) 
 }
 
 void count(FetchCount& result, const gl::Program& program, const gl::SlicedTarget& passResult,
-           const ProxySpheres* spheres) {
+           const OcclusionInputs& inputs) {
     const int width = passResult.width(result.level), height = passResult.height(result.level);
     const int layers = passResult.slices().layers;
     const gl::SlicedTarget target(width, height, gl::Format::r32f, {1, layers, false}, "fetches");
-    drawPass(*result.pass, program, target, gl::ScreenTriangle(), spheres);
+    drawPass(*result.pass, program, target, gl::ScreenTriangle(), inputs);
     const std::vector<float> counts =
         gl::readFloats(target.texture(), width, height * layers, gl::Format::r32f);
     result.most = *std::max_element(counts.begin(), counts.end());
@@ -65,7 +65,7 @@ std::vector<FetchCount> countFetches(const Settings& settings, const OcclusionIn
             if (level > 0)
                 result.bind(level, 0); // lets the shader see the level before
             counts.push_back(declarationOf(settings, pass, level));
-            count(counts.back(), *program, result, inputs.spheres);
+            count(counts.back(), *program, result, inputs);
         }
         result.readAll();
     });

@@ -243,6 +243,10 @@ double occlusionBytes(const Settings& settings, int width, int height) {
     return bytes;
 }
 
+std::optional<Normals> normalsFor(const Technique& technique, Normals kind) {
+    return technique.reads & normals ? std::optional(kind) : std::nullopt;
+}
+
 int downscaleOf(const Settings& settings) {
     return settings.has("downscale") ? static_cast<int>(settings["downscale"]) : 1;
 }
@@ -252,17 +256,6 @@ int guardPixels(const Settings& settings, int height) {
                ? static_cast<int>(std::ceil(settings["guardBand"] * static_cast<float>(height)))
                : 0;
 }
-
-namespace {
-
-constexpr glm::vec4 nothing[] = {glm::vec4(0)}; // because a buffer must not be empty
-
-} // namespace
-
-ProxySpheres::ProxySpheres(std::span<const glm::vec4> spheres)
-    : count_(static_cast<int>(spheres.size())),
-      buffer_(std::as_bytes(spheres.empty() ? nothing : spheres),
-              gl::UniformBuffer::Kind::storage) {}
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
     : settings_(settings), block_(settingsBlock(settings)),
@@ -317,18 +310,20 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
         if (reduction_->normals())
             gl::bindTexture(normalUnit, *reduction_->normals());
     }
-    if (inputs.light) {
+    const unsigned reads = settings_.technique().reads;
+    if (reads & light) {
+        const auto& [buffers, lighting] = inputs.light();
         gl::bindTexture(albedoUnit, inputs.gbuffer.albedo());
-        gl::bindTexture(ambientUnit, inputs.light->ambient());
-        gl::bindTexture(directUnit, inputs.light->direct());
-        inputs.lighting->environment().bind(environmentBinding);
+        gl::bindTexture(ambientUnit, buffers.ambient());
+        gl::bindTexture(directUnit, buffers.direct());
+        lighting.environment().bind(environmentBinding);
     }
-    if (inputs.spheres)
-        inputs.spheres->bind(spheresBinding);
+    if (reads & spheres)
+        inputs.spheres().bind(spheresBinding);
 }
 
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
-              const gl::ScreenTriangle& triangle, const ProxySpheres* spheres) {
+              const gl::ScreenTriangle& triangle, const OcclusionInputs& inputs) {
     program.use();
     if (computes(pass)) {
         const bool rows = pass.stage == Stage::rows;
@@ -346,7 +341,7 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
             program.set("layer", layer);
         if (state.add) {
             target.clear();
-            triangle.drawQuads(spheres->count());
+            triangle.drawQuads(inputs.spheres().count());
         } else {
             triangle.draw();
         }
@@ -355,7 +350,7 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
 
 void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const {
     const gl::SlicedTarget& target = step.target;
-    drawPass(*step.pass, step.program, target, triangle_, inputs.spheres);
+    drawPass(*step.pass, step.program, target, triangle_, inputs);
     if (target.slices().levels == 1)
         return;
     step.levelProgram->use();
@@ -374,8 +369,7 @@ const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
             issued(pass);
     };
     if (reduction_) {
-        assert(inputs.frame && "downscale needs the frame");
-        reduction_->reduce(inputs.gbuffer, *inputs.frame);
+        reduction_->reduce(inputs.gbuffer, inputs.frame);
         tell(Reduction::reducePass);
     }
     bindInputs(inputs);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/frame/light.h"
+#include "renderer/techniques/proxy_spheres.h"
 #include "renderer/techniques/reduction.h"
 #include "renderer/techniques/settings.h"
 
@@ -34,26 +35,21 @@ double occlusionBytes(const Settings& settings, int width, int height);
 // where it has none).
 int downscaleOf(const Settings& settings);
 
-// The scene's proxy spheres where shaders can read them: world position, radius (metres).
-class ProxySpheres {
-  public:
-    explicit ProxySpheres(std::span<const glm::vec4> spheres);
-    int count() const { return count_; }
-    void bind(int binding) const { buffer_.bind(binding); }
+// The normals that a G-buffer must hold for a technique; none where it reads depth alone.
+std::optional<Normals> normalsFor(const Technique& technique, Normals kind);
 
-  private:
-    int count_;
-    gl::UniformBuffer buffer_;
-};
-
-// What techniques may read. Only what the technique's row asks for must be there; the rest may be
-// null.
+// What techniques may read of a view. The passes ask for what the technique's row names and for
+// nothing else, so that what few read can be made when it is first asked for.
 struct OcclusionInputs {
+    struct Light {
+        const LightBuffers& buffers;
+        const Lighting& lighting;
+    };
+
     const GBuffer& gbuffer;
-    const LightBuffers* light = nullptr;
-    const Lighting* lighting = nullptr;
-    const ProxySpheres* spheres = nullptr;
-    const Frame* frame = nullptr; // the one that is bound; for `downscale`
+    const Frame& frame; // the one that is bound
+    std::function<Light()> light = {};
+    std::function<const ProxySpheres&()> spheres = {};
 };
 
 // Called after each pass has been issued, for timing and counting. The textures that the pass read
@@ -62,7 +58,7 @@ using PassObserver = std::function<void(const Pass&)>;
 
 // Runs a pass's program over level 0 of a target, in all layers. What it reads must be bound.
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
-              const gl::ScreenTriangle& triangle, const ProxySpheres* spheres);
+              const gl::ScreenTriangle& triangle, const OcclusionInputs& inputs);
 
 // A technique's passes over a G-buffer of one size: they read depth and whatever else the technique
 // asks for, and give visibility.

@@ -85,7 +85,7 @@ TEST_P(ComputedBlur, IsThePlainWeightedMean) {
     settings.set("intensity", 3);
     settings.set("blurRadius", reach);
     const OcclusionPasses passes(settings, width, height);
-    passes.visibility({gbuffer});
+    passes.visibility({gbuffer, frame});
     const auto red = [&, width = width, height = height](const gl::Texture& texture) {
         return gl::readFloats(texture, width, height, gl::Format::r32f);
     };

@@ -55,7 +55,11 @@ class Room {
     // Its frame is bound.
     OcclusionInputs inputs() const {
         bindFrame(frameBlock_);
-        return {gbuffer_, &light_, &lighting_, &spheres_, &frame_};
+        return {gbuffer_, frame_,
+                [this]() -> OcclusionInputs::Light {
+                    return {light_, lighting_};
+                },
+                [this]() -> const ProxySpheres& { return spheres_; }};
     }
     std::vector<FetchCount> count(const Settings& settings) const {
         return countFetches(settings, inputs(), width_, height_);

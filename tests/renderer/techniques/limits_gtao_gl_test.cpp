@@ -326,21 +326,21 @@ class BentNormals : public SlicesLimits {
     static glm::vec4 resultAt(const char* pass, const Scene& scene, const Above& view,
                               const Settings& settings) {
         const GpuScene gpuScene(scene);
-        const gl::UniformBuffer block =
-            frameBuffer(makeFrame(view.camera, view.width, view.height, gpuScene.bounds(), 1));
+        const Frame frame = makeFrame(view.camera, view.width, view.height, gpuScene.bounds(), 1);
+        const gl::UniformBuffer block = frameBuffer(frame);
         bindFrame(block);
         GBufferContent content;
         content.occlusionNormal = Normals::smooth;
         const GBuffer gbuffer(view.width, view.height, content);
-        GBufferPass().draw(gpuScene,
-                           makeFrame(view.camera, view.width, view.height, gpuScene.bounds(), 1),
-                           gbuffer);
+        GBufferPass().draw(gpuScene, frame, gbuffer);
         Level level;
         level.sky = sky;
         const Lighting lighting(level, gpuScene, std::filesystem::path());
         const LightBuffers lights(view.width, view.height, false);
         const OcclusionPasses passes(settings, view.width, view.height);
-        passes.visibility({gbuffer, &lights, &lighting, nullptr});
+        passes.visibility({gbuffer, frame, [&] {
+                               return OcclusionInputs::Light{lights, lighting};
+                           }});
         EXPECT_EQ(passes.sendsLight(), settings["bentNormals"] > 0);
         const std::vector<float> values = gl::readFloats(passes.result(pass).texture(), view.width,
                                                          view.height, gl::Format::rgba32f);

@@ -218,8 +218,13 @@ TEST_F(LightLimits, SsdoLeavesAnOpenSceneAsItIs) {
                 lighting.draw(gbuffer, light);
                 const OcclusionPasses passes(Settings(technique(id)), 96, 64);
                 Composite composite(view, level, 96, 64, true);
-                composite.draw(light, passes.visibility({gbuffer, &light, &lighting, nullptr}),
-                               passes.sendsLight());
+                composite.draw(
+                    light,
+                    passes.visibility({gbuffer, frame,
+                                       [&] {
+                                           return OcclusionInputs::Light{light, lighting};
+                                       }}),
+                    passes.sendsLight());
                 return composite.meanLinear();
             };
             const std::vector<float> with = image("ssdo"), without = image("none");

@@ -207,7 +207,10 @@ class VaoPlusPlusSwitches : public GlTest {
         const LightBuffers light(width, height, false);
         lighting.draw(gbuffer, light);
         const OcclusionPasses passes(settings, width, height);
-        const gl::Texture& last = passes.visibility({gbuffer, &light, &lighting, nullptr});
+        const gl::Texture& last =
+            passes.visibility({gbuffer, frame, [&] {
+                                   return OcclusionInputs::Light{light, lighting};
+                               }});
         return {gl::readFloats(last, width, height,
                                passes.sendsLight() ? gl::Format::rgba32f : gl::Format::r32f),
                 gl::readFloats(light.ambient(), width, height, gl::Format::rgba32f)};
@@ -420,8 +423,11 @@ TEST_F(VaoPlusPlusOnSponza, SavingsCostLittleAccuracy) {
         settings.set("adaptive", adaptive);
         settings.set("culling", culling);
         const OcclusionPasses passes(settings, width, height);
-        return gl::readFloats(passes.visibility({gbuffer, &light, &lighting, nullptr}), width,
-                              height, gl::Format::r32f);
+        return gl::readFloats(passes.visibility({gbuffer, frame,
+                                                 [&] {
+                                                     return OcclusionInputs::Light{light, lighting};
+                                                 }}),
+                              width, height, gl::Format::r32f);
     };
     std::vector<float> sorted = depth;
     std::nth_element(sorted.begin(), sorted.begin() + width * height / 2, sorted.end());

@@ -50,20 +50,24 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
                                 settings, seed);
     const int fullWidth = width + 2 * guard, fullHeight = height + 2 * guard;
     const Lighting lighting(level, gpuScene, std::filesystem::path());
-    GBufferContent content;
-    content.shadingNormal = lighting.readsNormals();
-    if (settings.technique().reads & normals)
-        content.occlusionNormal = kind;
-    const GBuffer gbuffer(fullWidth, fullHeight, content);
+    const GBuffer gbuffer(fullWidth, fullHeight,
+                          {true, lighting.readsNormals(), normalsFor(settings.technique(), kind)});
     GBufferPass().draw(gpuScene, frame, gbuffer);
     const LightBuffers light(fullWidth, fullHeight, lighting.hasDirect());
     lighting.draw(gbuffer, light);
     std::optional<ProxySpheres> fitted;
-    if (settings.technique().reads & spheres)
-        fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
+    const auto spheres = [&]() -> const ProxySpheres& {
+        if (!fitted)
+            fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
+        return *fitted;
+    };
     const OcclusionPasses passes(settings, fullWidth, fullHeight);
     const gl::Texture& texture =
-        passes.visibility({gbuffer, &light, &lighting, fitted ? &*fitted : nullptr, &frame});
+        passes.visibility({gbuffer, frame,
+                           [&] {
+                               return OcclusionInputs::Light{light, lighting};
+                           },
+                           spheres});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
