@@ -30,7 +30,7 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
             machine.journalled();
             break;
         case TrialMachine::Next::present: {
-            const double time = observer.show(machine.screen());
+            const double time = observer.show(machine);
             for (const Event& event : observer.events(false))
                 machine.handle(event);
             machine.shown(time);
@@ -40,7 +40,7 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
             for (const Event& event : observer.events(true))
                 machine.handle(event);
             break;
-        case TrialMachine::Next::answered:
+        case TrialMachine::Next::finished:
             return true;
         case TrialMachine::Next::left:
             return false;
@@ -48,24 +48,34 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
     }
 }
 
+int hastyPressesOf(const TrialRecord& record) {
+    int sum = 0;
+    for (const PhaseRecord& phase : record.phases)
+        sum += phase.hastyPresses;
+    return sum;
+}
+
 // All trials, or those until the person left: true when all were answered. Adds to the intervals of
-// the masks.
+// counted phases.
 bool playAll(const Context& context, Observer& observer, Recorder& recorder,
-             std::vector<double>& maskIntervals) {
+             std::vector<double>& intervals) {
     const auto& order = context.assignment.order;
+    const std::vector<Phase> phases = phasesOf(context.study.protocol.trial);
+    const std::optional<PairPhases> pair = pairPhasesOf(phases);
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Upcoming trial{static_cast<int>(i) + 1, static_cast<int>(order.size()), order[i],
                              context.assignment.reversed};
-        TrialMachine machine(context.study.protocol.trial, context.refresh.hz);
+        TrialMachine machine(phases, 2, context.refresh.hz);
         observer.prepare(trial);
         if (!play(machine, observer, recorder, trial.index,
                   context.study.pair(trial.condition).condition))
             return false;
-        recorder.record(makeRow(context, trial, machine.record()));
-        if (const int hasty = machine.record().hastyPresses)
+        if (pair)
+            recorder.record(makeRow(context, trial, machine.record(), *pair));
+        if (const int hasty = hastyPressesOf(machine.record()))
             recorder.hastyPresses(trial.index, hasty);
-        const auto& intervals = machine.record().maskIntervals;
-        maskIntervals.insert(maskIntervals.end(), intervals.begin(), intervals.end());
+        for (const PhaseRecord& phase : machine.record().phases)
+            intervals.insert(intervals.end(), phase.intervals.begin(), phase.intervals.end());
     }
     return true;
 }
