@@ -83,26 +83,27 @@ std::string contactSheets(const Manifest& stimuli) {
 }
 
 std::string occlusionTable(const Manifest& stimuli) {
-    std::string html = "<div class=\"wide\"><table>\n<thead><tr><th>Condition</th><th>a</th>"
-                       "<th class=\"number\">mean occlusion</th><th>b</th>"
-                       "<th class=\"number\">mean occlusion</th>"
+    std::string html = "<div class=\"wide\"><table>\n<thead><tr><th>Condition</th><th>image</th>"
+                       "<th>technique</th><th class=\"number\">mean occlusion</th>"
                        "<th class=\"number\">radius, m</th></tr></thead>\n<tbody>\n";
-    for (const PairRecord& pair : stimuli.pairs)
-        html += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td class=\"number\">{:.3f}"
-                            "</td><td>{}</td><td class=\"number\">{:.3f}</td>"
-                            "<td class=\"number\">{:g}</td></tr>\n",
-                            escaped(pair.condition), escaped(pair.a.name), pair.a.meanOcclusion,
-                            escaped(pair.b.name), pair.b.meanOcclusion, pair.radius);
+    for (const ConditionRecord& condition : stimuli.conditions)
+        for (const ImageRecord& image : condition.images)
+            html +=
+                fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td>"
+                            "<td class=\"number\">{:.3f}</td><td class=\"number\">{:g}</td></tr>\n",
+                            escaped(condition.condition), escaped(image.role), escaped(image.name),
+                            image.meanOcclusion, condition.radius);
     return html + "</tbody></table></div>\n";
 }
 
 std::string renderedBy(const Manifest& stimuli) {
     std::set<std::string> makers;
-    for (const PairRecord& pair : stimuli.pairs)
-        for (const Recipe& recipe : {pair.a.recipe, pair.b.recipe})
+    for (const ConditionRecord& condition : stimuli.conditions)
+        for (const ImageRecord& image : condition.images)
             makers.insert(fmt::format("obscura-stimuli {} ({}), OpenGL {}, {}, {}",
-                                      recipe.programVersion, stimuli.commit, recipe.glVersion,
-                                      recipe.glRenderer, recipe.glVendor));
+                                      image.recipe.programVersion, stimuli.commit,
+                                      image.recipe.glVersion, image.recipe.glRenderer,
+                                      image.recipe.glVendor));
     return fmt::format("{} × {} pixels, by {}", stimuli.width, stimuli.height,
                        fmt::join(makers, "; "));
 }

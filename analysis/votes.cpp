@@ -26,8 +26,9 @@ void groupByLevel(std::vector<Tally>& tallies) {
     });
 }
 
-Tally emptyTally(const PairRecord& pair) {
-    return {pair.condition, pair.level, pair.view, pair.hypothesis, pair.a.name, pair.b.name, {}};
+Tally emptyTally(const ConditionRecord& pair) {
+    return {pair.condition,       pair.level,           pair.view, pair.hypothesis,
+            pair.image("a").name, pair.image("b").name, {}};
 }
 
 Tally emptyTally(const Response& row) {
@@ -79,13 +80,13 @@ Tally& tallyOf(const Answer& answer, std::vector<Tally>& tallies) {
 void checkImages(const Answer& answer, const Manifest& stimuli) {
     const Response& row = answer.row;
     const auto pair =
-        std::find_if(stimuli.pairs.begin(), stimuli.pairs.end(),
-                     [&](const PairRecord& p) { return p.condition == row.conditionId; });
-    assert(pair != stimuli.pairs.end()); // tallyOf() has looked it up
+        std::find_if(stimuli.conditions.begin(), stimuli.conditions.end(),
+                     [&](const ConditionRecord& p) { return p.condition == row.conditionId; });
+    assert(pair != stimuli.conditions.end()); // tallyOf() has looked it up
     const bool aFirst = row.firstIs == "a";
-    if (row.sha256First != (aFirst ? pair->a : pair->b).image.sha256)
+    if (row.sha256First != (aFirst ? pair->image("a") : pair->image("b")).image.sha256)
         fail(answer, "sha256_first", "the image shown is not the one in the stimuli's manifest");
-    if (row.sha256Second != (aFirst ? pair->b : pair->a).image.sha256)
+    if (row.sha256Second != (aFirst ? pair->image("b") : pair->image("a")).image.sha256)
         fail(answer, "sha256_second", "the image shown is not the one in the stimuli's manifest");
 }
 
@@ -162,8 +163,10 @@ std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest
                               const std::vector<std::string>& order) {
     std::vector<Tally> tallies;
     if (stimuli)
-        for (const PairRecord& pair : stimuli->pairs)
-            tallies.push_back(emptyTally(pair));
+        for (const ConditionRecord& condition : stimuli->conditions) {
+            if (condition.isPair())
+                tallies.push_back(emptyTally(condition));
+        }
     else
         tallies = emptyTallies(answers, order);
     for (const Answer& answer : answers) {

@@ -52,8 +52,9 @@ std::string readme(const std::string& title) {
         "Data of one study, laid out as Psych-DS. `data/` has one CSV per participant and "
         "session,\n"
         "one row per trial; `dataset_description.json` says what each column means. `sessions/`\n"
-        "has, for each of them, the circumstances (`_session.json`) and a journal of what began\n"
-        "and ended when (`_journal.jsonl`), and the ledger of the ordering scheme's slots.\n\n"
+        "has, for each of them, the circumstances (`_session.json`), a journal of what began and\n"
+        "ended when (`_journal.jsonl`), a line for each phase of a trial (`_phases.csv`) and for\n"
+        "each answer (`_answers.csv`), and the ledger of the ordering scheme's slots.\n\n"
         "Participants are named by pseudonyms. Keep the list of who they are elsewhere.\n",
         title);
 }
@@ -127,6 +128,14 @@ std::string DataFolder::stem(const SessionId& session) const {
 
 fs::path DataFolder::rows(const SessionId& session) const {
     return root_ / "data" / (stem(session) + "_data.csv");
+}
+
+fs::path DataFolder::phases(const SessionId& session) const {
+    return root_ / "sessions" / (stem(session) + "_phases.csv");
+}
+
+fs::path DataFolder::answers(const SessionId& session) const {
+    return root_ / "sessions" / (stem(session) + "_answers.csv");
 }
 
 fs::path DataFolder::journal(const SessionId& session) const {

@@ -14,6 +14,8 @@ namespace obscura {
 //   <data>/<study>/dataset_description.json   what the columns mean
 //   <data>/<study>/README.md
 //   <data>/<study>/data/study-<study>_subject-<id>_session-<n>_data.csv   one row per trial
+//   <data>/<study>/sessions/study-..._phases.csv      one row per phase of a trial
+//   <data>/<study>/sessions/study-..._answers.csv     one row per question
 //   <data>/<study>/sessions/study-..._journal.jsonl   what began and ended when
 //   <data>/<study>/sessions/study-..._session.json    display, order, how the session went
 //   <data>/<study>/sessions/ledger.jsonl              who has which slot
@@ -34,6 +36,8 @@ class DataFolder {
     const std::filesystem::path& path() const { return root_; }
 
     std::filesystem::path rows(const SessionId& session) const;
+    std::filesystem::path phases(const SessionId& session) const;
+    std::filesystem::path answers(const SessionId& session) const;
     std::filesystem::path journal(const SessionId& session) const;
     std::filesystem::path sidecar(const SessionId& session) const;
     std::filesystem::path ledger() const;

@@ -16,10 +16,11 @@ constexpr double keyDown = 0.08;  // seconds for which a key is held
 
 } // namespace
 
-std::string Upcoming::role(const std::string& image) const {
-    if (image != "1" && image != "2")
-        return image;
-    return (image == "1") == reversed ? "b" : "a";
+const std::string& Upcoming::role(const std::string& image) const {
+    for (std::size_t i = 0; i < order.size(); ++i)
+        if (image == fmt::format("{}", i + 1))
+            return order[i];
+    return image;
 }
 
 SimulatedObserver::SimulatedObserver(const Protocol& protocol, std::uint64_t seed,
@@ -46,7 +47,7 @@ void SimulatedObserver::describe(nlohmann::ordered_json& sidecar) const {
 void SimulatedObserver::prepare(const Upcoming& trial) {
     const Condition& condition = protocol_.conditions.at(static_cast<std::size_t>(trial.condition));
     const double preferSecond =
-        trial.reversed ? 1 - condition.simulated.chooseB : condition.simulated.chooseB;
+        trial.order.front() == "b" ? 1 - condition.simulated.chooseB : condition.simulated.chooseB;
     chooseSecond_ = std::clamp(preferSecond + protocol_.simulation.positionBias, 0.0, 1.0);
 }
 

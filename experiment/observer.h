@@ -14,12 +14,12 @@ namespace obscura {
 
 // A trial about to be run.
 struct Upcoming {
-    int index = 0, count = 0; // which of how many, from 1
-    int condition = 0;        // as the protocol counts them, from 0
-    bool reversed = false;    // member b comes first
+    int index = 0, count = 0;       // which of how many, from 1
+    int condition = 0;              // as the protocol counts them, from 0
+    std::vector<std::string> order; // the roles at the places 1, 2 and so on
 
     // The role of an image that a phase names by its place in the order, or by its role.
-    std::string role(const std::string& image) const;
+    const std::string& role(const std::string& image) const;
 };
 
 // One who is shown things and answers: a person before a display (Presenter), or a stated model of

@@ -17,7 +17,14 @@ namespace {
 constexpr double progressInterval = 0.1; // seconds
 constexpr const char* idTitle = "who takes part?";
 
-int pairCount(const Study& study) { return static_cast<int>(study.manifest.pairs.size()); }
+int trialCount(const Study& study) { return static_cast<int>(study.manifest.conditions.size()); }
+
+int imageCount(const Study& study) {
+    int count = 0;
+    for (const ConditionRecord& condition : study.manifest.conditions)
+        count += static_cast<int>(condition.images.size());
+    return count;
+}
 
 gl::Picture upload(const Image8& image) {
     return {image.width, image.height, image.channels, image.pixels};
@@ -41,7 +48,7 @@ bool edit(std::string& text, const gl::Input& input) {
 Curtain curtain(const Study& study) {
     checkShowable(study.protocol.texts);
     return [&study](int width, int height) {
-        const Page page = loadingPage(study.protocol.texts, 0, 2 * pairCount(study));
+        const Page page = loadingPage(study.protocol.texts, 0, imageCount(study));
         return drawPage(page, width, height, study.protocol.trial.grey).image;
     };
 }
@@ -54,7 +61,7 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
     loadImages();
     for (std::size_t i = 0; i < phases_.size(); ++i)
         if (!phases_[i].questions.empty()) {
-            prepared_[i].sheet = formSheet(Form(phases_[i].questions, 2), phases_[i]);
+            prepared_[i].sheet = formSheet(Form(phases_[i].questions, places()), phases_[i]);
             display_.warmUp(prepared_[i].sheet->picture);
         } else if (!phases_[i].text.empty() && !phases_[i].progress) {
             prepared_[i].sheet = sheet(textPage(texts_, phases_[i], 1, 1), "");
@@ -65,9 +72,9 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
 // Texts that do not fit should stop the session before it begins. They need most room while another
 // window has the keyboard.
 void Presenter::checkFits() const {
-    const int pairs = pairCount(study_);
+    const int pairs = trialCount(study_), images = imageCount(study_);
     const gl::Window& window = display_.window();
-    std::vector<Page> pages = {loadingPage(texts_, 2 * pairs, 2 * pairs),
+    std::vector<Page> pages = {loadingPage(texts_, images, images),
                                idPage(texts_, "", texts_.idMalformed),
                                idPage(texts_, "", texts_.idTaken),
                                instructionsPage(texts_),
@@ -75,7 +82,7 @@ void Presenter::checkFits() const {
                                thanksPage(texts_)};
     for (const Phase& phase : phases_)
         if (!phase.questions.empty())
-            pages.push_back(formPage(texts_, Form(phase.questions, 2), room(phase)));
+            pages.push_back(formPage(texts_, Form(phase.questions, places()), room(phase)));
         else if (!phase.text.empty())
             pages.push_back(textPage(texts_, phase, pairs, pairs));
     for (Page& page : pages) {
@@ -88,26 +95,33 @@ void Presenter::checkFits() const {
 // Files are read and decoded by as many threads as there are cores, no further ahead than that.
 void Presenter::loadImages() {
     const Manifest& manifest = study_.manifest;
-    const int count = 2 * pairCount(study_);
-    const auto decoded = [&manifest](int index) {
-        const PairRecord& pair = manifest.pairs[static_cast<std::size_t>(index / 2)];
-        return loadStimulus(manifest, index % 2 ? pair.b : pair.a);
+    struct Wanted {
+        std::size_t condition;
+        const ImageRecord* record;
     };
+    std::vector<Wanted> wanted;
+    for (std::size_t i = 0; i < manifest.conditions.size(); ++i)
+        for (const ImageRecord& record : manifest.conditions[i].images)
+            wanted.push_back({i, &record});
     std::deque<std::future<Image8>> ahead;
     const std::size_t threads = std::max(1u, std::thread::hardware_concurrency());
-    pairs_.resize(manifest.pairs.size());
+    pictures_.resize(manifest.conditions.size());
     double shown = display_.window().now();
-    for (int next = 0, loaded = 0; loaded < count; ++loaded) {
-        while (next < count && ahead.size() < threads)
-            ahead.push_back(std::async(std::launch::async, decoded, next++));
-        gl::Picture& picture =
-            pairs_[static_cast<std::size_t>(loaded / 2)][static_cast<std::size_t>(loaded % 2)];
+    for (std::size_t next = 0, loaded = 0; loaded < wanted.size(); ++loaded) {
+        while (next < wanted.size() && ahead.size() < threads)
+            ahead.push_back(
+                std::async(std::launch::async, [&manifest, record = wanted[next++].record] {
+                    return loadStimulus(manifest, *record);
+                }));
+        gl::Picture& picture = pictures_[wanted[loaded].condition][wanted[loaded].record->role];
         picture = upload(ahead.front().get());
         ahead.pop_front();
         display_.warmUp(picture);
         display_.window().poll();
         if (display_.window().now() - shown > progressInterval) {
-            const Sheet progress = sheet(loadingPage(texts_, loaded + 1, count), "");
+            const Sheet progress = sheet(
+                loadingPage(texts_, static_cast<int>(loaded) + 1, static_cast<int>(wanted.size())),
+                "");
             shown = display_.show(&progress.picture);
         }
     }
@@ -138,8 +152,7 @@ Page::Pictures Presenter::room(const Phase& phase) const {
 }
 
 const gl::Picture& Presenter::picture(const std::string& image) const {
-    const auto& pair = pairs_.at(static_cast<std::size_t>(trial_.condition));
-    return pair[trial_.role(image) == "b" ? 1 : 0];
+    return pictures_.at(static_cast<std::size_t>(trial_.condition)).at(trial_.role(image));
 }
 
 std::vector<Placed> Presenter::placedOn(const Sheet& sheet) const {

@@ -4,8 +4,8 @@
 #include "experiment/observer.h"
 #include "experiment/text.h"
 
-#include <array>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -71,6 +71,7 @@ class Presenter : public Observer {
     std::vector<Placed> placed(const Phase& phase) const;
     Sheet formSheet(const Form& form, const Phase& phase) const;
     Page::Pictures room(const Phase& phase) const;
+    int places() const { return static_cast<int>(study_.protocol.trial.order.size()); }
     void announce();
     std::vector<gl::Input> inputs();
     Event clicked(const gl::Input& input) const;
@@ -84,7 +85,7 @@ class Presenter : public Observer {
     const Texts& texts_;
     std::string warning_;
     std::vector<Phase> phases_;
-    std::vector<std::array<gl::Picture, 2>> pairs_; // by condition: members a and b
+    std::vector<std::map<std::string, gl::Picture>> pictures_; // by condition and role
     Sheet leave_;
     std::vector<Prepared> prepared_; // by phase
     Sheet answered_;                 // a page of questions as far as it is answered

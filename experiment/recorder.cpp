@@ -1,6 +1,9 @@
 #include "experiment/recorder.h"
 
+#include "base/error.h"
+#include "base/files.h"
 #include "experiment/machine.h"
+#include "protocols/reader/trial_tables.h"
 
 #include <nlohmann/json.hpp>
 
@@ -18,10 +21,13 @@ std::string entry(std::string_view event, const ordered_json& details) {
 
 } // namespace
 
-Recorder::Recorder(const DataFolder& folder, const SessionId& session, int slot)
-    : rows_(AppendFile::create(folder.rows(session), responseHeader())),
+Recorder::Recorder(const DataFolder& folder, const SessionId& session, int slot, bool pairs)
+    : rows_(pairs ? std::optional(AppendFile::create(folder.rows(session), responseHeader()))
+                  : std::nullopt),
+      phases_(AppendFile::create(folder.phases(session), phaseHeader())),
+      answers_(AppendFile::create(folder.answers(session), answerHeader())),
       journal_(AppendFile::create(folder.journal(session),
-                                  entry("session_started", {{"format_version", 2},
+                                  entry("session_started", {{"format_version", 3},
                                                             {"participant", session.participant},
                                                             {"session", session.number},
                                                             {"simulated", session.simulated},
@@ -32,7 +38,17 @@ void Recorder::trialStarted(int trial, const std::string& condition) {
     journal_.append(entry("trial_started", {{"trial", trial}, {"condition", condition}}));
 }
 
-void Recorder::record(const Response& row) { rows_.append(responseLine(row)); }
+void Recorder::finished(int trial, const TrialLines& lines) {
+    journal_.append(entry("trial_finished", {{"trial", trial},
+                                             {"rows", lines.rows},
+                                             {"phases", lines.phases},
+                                             {"answers", lines.answers}}));
+    if (rows_ && !lines.rows.empty())
+        rows_->append(lines.rows);
+    phases_.append(lines.phases);
+    if (!lines.answers.empty())
+        answers_.append(lines.answers);
+}
 
 void Recorder::hastyPresses(int trial, int count) {
     journal_.append(entry("presses_ignored", {{"trial", trial}, {"count", count}}));
@@ -40,6 +56,48 @@ void Recorder::hastyPresses(int trial, int count) {
 
 void Recorder::end(std::string_view reason) {
     journal_.append(entry("session_ended", {{"reason", reason}}));
+}
+
+namespace {
+
+// What the journal has of one table, in order.
+std::string journalled(const std::string& journal, const char* table) {
+    std::string lines;
+    for (std::size_t begin = 0, end; (end = journal.find('\n', begin)) != journal.npos;
+         begin = end + 1) {
+        const auto object =
+            nlohmann::json::parse(journal.substr(begin, end - begin), nullptr, false);
+        if (object.is_object() && object.value("event", "") == "trial_finished")
+            lines += object.value(table, "");
+    }
+    return lines;
+}
+
+bool restore(const std::filesystem::path& path, const std::string& header,
+             const std::string& lines) {
+    if (lines.empty())
+        return false;
+    if (!std::filesystem::exists(path))
+        AppendFile::create(path, header);
+    AppendFile file = AppendFile::openLocked(path); // which takes out a last line that was cut
+    const std::string content = readFile(path), whole = header + lines;
+    if (content.starts_with(whole))
+        return false;
+    if (!whole.starts_with(content))
+        throw Error({path.string(), 0, 0, {}},
+                    "expected the lines that the session's journal has, found others; put the "
+                    "original back");
+    file.append(whole.substr(content.size()));
+    return true;
+}
+
+} // namespace
+
+int restoreTables(const DataFolder& folder, const SessionId& session) {
+    const std::string journal = readFile(folder.journal(session));
+    return restore(folder.rows(session), responseHeader(), journalled(journal, "rows")) +
+           restore(folder.phases(session), phaseHeader(), journalled(journal, "phases")) +
+           restore(folder.answers(session), answerHeader(), journalled(journal, "answers"));
 }
 
 } // namespace obscura

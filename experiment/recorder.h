@@ -4,29 +4,45 @@
 #include "experiment/data_folder.h"
 #include "protocols/reader/responses.h"
 
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace obscura {
 
-// Keeps a session's rows and its journal, both safe on disk when a function returns. The journal
-// says session_started, then trial_started for each trial before its first image, presses_ignored
-// where Space was pressed too soon, then session_ended with the reason. A trial that was started
-// but has no row was broken off while the participant looked; a journal without session_ended is a
-// crash.
+// What is kept of one trial: lines of each table, whole, with their line feeds.
+struct TrialLines {
+    std::string rows;    // of pairs; "" where the trial is none
+    std::string phases;  // protocols/reader/trial_tables.h
+    std::string answers; // the same
+};
+
+// Keeps a session's tables and its journal, all safe on disk when a function returns. The journal
+// says session_started, then trial_started for each trial before its first image, trial_finished
+// with the lines of all tables, presses_ignored where Space was pressed too soon, then
+// session_ended with the reason. A trial that was started but not finished was broken off while the
+// participant looked; a journal without session_ended is a crash. The journal is written first:
+// what a crash keeps from the tables, restoreTables() writes.
 class Recorder {
   public:
-    // New files; an Error when this session has any. `slot`: whose order is shown.
-    Recorder(const DataFolder& folder, const SessionId& session, int slot);
+    // New files; an Error when this session has any. `slot`: whose order is shown; `pairs`: whether
+    // its trials have rows.
+    Recorder(const DataFolder& folder, const SessionId& session, int slot, bool pairs);
 
     void trialStarted(int trial, const std::string& condition);
-    void record(const Response& row);
+    void finished(int trial, const TrialLines& lines);
     void hastyPresses(int trial, int count); // of Space, ignored because an image had just come on
     void end(std::string_view reason);
 
   private:
-    AppendFile rows_;
-    AppendFile journal_;
+    // No rows where the study's trials are no pairs.
+    std::optional<AppendFile> rows_;
+    AppendFile phases_, answers_, journal_;
 };
+
+// Writes into a session's tables the lines that its journal has and they lack, and takes out a last
+// line that was cut. How many tables were mended. An Error when one has other lines than the
+// journal. The session must not be running.
+int restoreTables(const DataFolder& folder, const SessionId& session);
 
 } // namespace obscura

@@ -1,10 +1,14 @@
 #include "experiment/row.h"
 
+#include "base/csv.h"
 #include "base/version.h"
 #include "experiment/machine.h"
+#include "protocols/reader/trial_tables.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
 
 namespace obscura {
 
@@ -30,22 +34,23 @@ Response identity(const Context& context, const Upcoming& trial) {
     return row;
 }
 
-void addCondition(Response& row, const PairRecord& pair, bool reversed) {
-    const ImageRecord& first = reversed ? pair.b : pair.a;
-    const ImageRecord& second = reversed ? pair.a : pair.b;
-    row.conditionId = pair.condition;
-    row.level = pair.level;
-    row.scene = pair.view;
-    row.hypothesis = pair.hypothesis;
-    row.techniqueA = pair.a.name;
-    row.techniqueB = pair.b.name;
-    row.paramsA = settings(pair.a.recipe);
-    row.paramsB = settings(pair.b.recipe);
+void addCondition(Response& row, const ConditionRecord& condition, const Upcoming& trial) {
+    const ImageRecord &a = condition.image("a"), &b = condition.image("b"),
+                      &first = condition.image(trial.role("1")),
+                      &second = condition.image(trial.role("2"));
+    row.conditionId = condition.condition;
+    row.level = condition.level;
+    row.scene = condition.view;
+    row.hypothesis = condition.hypothesis;
+    row.techniqueA = a.name;
+    row.techniqueB = b.name;
+    row.paramsA = settings(a.recipe);
+    row.paramsB = settings(b.recipe);
     row.stimFirst = first.image.path;
     row.stimSecond = second.image.path;
     row.sha256First = first.image.sha256;
     row.sha256Second = second.image.sha256;
-    row.firstIs = reversed ? 'b' : 'a';
+    row.firstIs = first.role;
 }
 
 void addTiming(Response& row, const TrialRecord& trial, const PairPhases& pair,
@@ -84,7 +89,10 @@ void addProvenance(Response& row, const Protocol& protocol) {
 
 } // namespace
 
-std::optional<PairPhases> pairPhasesOf(const std::vector<Phase>& phases) {
+std::optional<PairPhases> pairPhasesOf(const Trial& trial) {
+    if (trial.order != Trial().order)
+        return std::nullopt;
+    const std::vector<Phase> phases = phasesOf(trial);
     PairPhases pair;
     const auto shows = [&](std::size_t i, const char* image) {
         return i < phases.size() && phases[i].images == std::vector<std::string>{image} &&
@@ -109,11 +117,130 @@ std::optional<PairPhases> pairPhasesOf(const std::vector<Phase>& phases) {
 Response makeRow(const Context& context, const Upcoming& trial, const TrialRecord& record,
                  const PairPhases& pair) {
     Response row = identity(context, trial);
-    addCondition(row, context.study.pair(trial.condition), trial.reversed);
+    addCondition(row, context.study.condition(trial.condition), trial);
     addTiming(row, record, pair, context.refresh);
     addAnswer(row, record, pair);
     addProvenance(row, context.study.protocol);
     return row;
+}
+
+namespace {
+
+std::string joined(const std::vector<std::string>& words, const char* separator) {
+    return fmt::format("{}", fmt::join(words, separator));
+}
+
+TrialKey keyOf(const Context& context, const Upcoming& trial, const std::string& part) {
+    const ConditionRecord& condition = context.study.condition(trial.condition);
+    TrialKey key;
+    key.rowId = fmt::format("{}-{}-{}-{}", context.session.participant, context.session.number,
+                            trial.index, part);
+    key.studyId = context.study.protocol.name;
+    key.participantId = context.session.participant;
+    key.sessionId = fmt::format("{}", context.session.number);
+    key.simulated = context.session.simulated;
+    key.rehearsal = context.session.rehearsal;
+    key.slotId = context.assignment.slot;
+    key.trialIndex = trial.index;
+    key.conditionId = condition.condition;
+    key.level = condition.level;
+    key.scene = condition.view;
+    key.hypothesis = condition.hypothesis;
+    key.roles = joined(trial.order, ">");
+    std::vector<std::string> techniques;
+    for (const std::string& role : trial.order)
+        techniques.push_back(condition.image(role).name);
+    key.techniques = joined(techniques, ">");
+    return key;
+}
+
+PhaseRow phaseRow(const Context& context, const Upcoming& trial, const Phase& phase,
+                  const PhaseRecord& record, int index) {
+    PhaseRow row;
+    row.trial = keyOf(context, trial, phase.name);
+    row.phaseIndex = index;
+    row.phase = phase.name;
+    std::vector<std::string> roles, files, hashes;
+    for (const std::string& image : phase.images) {
+        const ImageRecord& shown =
+            context.study.condition(trial.condition).image(trial.role(image));
+        roles.push_back(shown.role);
+        files.push_back(shown.image.path);
+        hashes.push_back(shown.image.sha256);
+    }
+    row.images = joined(roles, "+");
+    row.files = joined(files, "+");
+    row.sha256 = joined(hashes, "+");
+    row.onsetMs = 1000 * record.onset;
+    row.viewMs = 1000 * record.view;
+    row.framesPlanned = record.framesPlanned;
+    row.framesShown = record.framesShown;
+    row.missedFrames = record.missedFrames;
+    row.earlyPresses = record.earlyPresses;
+    row.hastyPresses = record.hastyPresses;
+    row.interrupted = record.interrupted;
+    row.timedOut = record.timedOut;
+    row.refreshHz = context.refresh.hz;
+    row.timestampSource = context.refresh.source;
+    return row;
+}
+
+AnswerRow answerRow(const Context& context, const Upcoming& trial, const Phase& phase,
+                    const Question& question, const Answer& answer) {
+    AnswerRow row;
+    row.trial = keyOf(context, trial, question.name);
+    row.phase = phase.name;
+    row.question = question.name;
+    row.kind = nameOf(question.kind);
+    row.value = answer.value;
+    row.role = rolesIn(question, answer.value, trial.order);
+    row.responseMs = 1000 * answer.seconds;
+    row.appVersion = version();
+    row.gitCommit = commit();
+    row.protocolSha256 = context.study.protocol.sha256;
+    row.designSha256 = context.designSha256;
+    row.machineId = machineName();
+    row.wallTimeUtc = utcNow();
+    return row;
+}
+
+} // namespace
+
+std::string rolesIn(const Question& question, const std::string& value,
+                    const std::vector<std::string>& order) {
+    const bool ranks = question.kind == Question::Kind::rank;
+    if (!ranks && !question.images)
+        return {};
+    std::vector<std::string> roles;
+    for (std::size_t begin = 0; begin < value.size();) {
+        const std::size_t end = std::min(value.find('>', begin), value.size());
+        int place = 0;
+        if (readCell(value.substr(begin, end - begin), place) && place >= 1 &&
+            place <= static_cast<int>(order.size()))
+            roles.push_back(order[static_cast<std::size_t>(place - 1)]);
+        begin = end + 1;
+    }
+    return joined(roles, ">");
+}
+
+TrialLines linesOf(const Context& context, const Upcoming& trial, const TrialRecord& record) {
+    const Trial& shape = context.study.protocol.trial;
+    const std::vector<Phase> phases = phasesOf(shape);
+    TrialLines lines;
+    if (const auto pair = pairPhasesOf(shape))
+        lines.rows = responseLine(makeRow(context, trial, record, *pair));
+    std::size_t answered = 0;
+    for (std::size_t i = 0; i < phases.size(); ++i) {
+        lines.phases += phaseLine(
+            phaseRow(context, trial, phases[i], record.phases[i], static_cast<int>(i) + 1));
+        for (const Question& question : phases[i].questions) {
+            AnswerRow row =
+                answerRow(context, trial, phases[i], question, record.answers[answered++]);
+            row.interrupted = record.interrupted;
+            lines.answers += answerLine(row);
+        }
+    }
+    return lines;
 }
 
 } // namespace obscura

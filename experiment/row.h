@@ -2,6 +2,7 @@
 
 #include "experiment/ledger.h"
 #include "experiment/observer.h"
+#include "experiment/recorder.h"
 #include "experiment/schedule.h"
 #include "experiment/study.h"
 #include "experiment/trial.h"
@@ -20,17 +21,25 @@ struct Context {
     std::string designSha256; // of Study::design()
 };
 
-// Where in a trial's phases the columns of a pair come from: image 1, at once a locked grey, at
-// once image 2, and a choice between the two without a third option. None in other trials, which
-// have no such rows.
+// Where in the phases of a trial of a and b the columns of a pair come from: image 1, at once a
+// locked grey, at once image 2, and a choice between the two without a third option. None in other
+// trials, which have no such rows.
 struct PairPhases {
     std::size_t first = 0, mask = 0, second = 0, question = 0;
     std::size_t answer = 0; // among those of the trial
 };
-std::optional<PairPhases> pairPhasesOf(const std::vector<Phase>& phases);
+std::optional<PairPhases> pairPhasesOf(const Trial& trial);
 
-// A trial's outcome as the row that is kept of it.
+// A trial's outcome as the row that is kept of a pair.
 Response makeRow(const Context& context, const Upcoming& trial, const TrialRecord& record,
                  const PairPhases& pair);
+
+// The roles that an answer about images means: of the one chosen, or of those ranked, best first
+// ("b>a"); "" for other answers.
+std::string rolesIn(const Question& question, const std::string& value,
+                    const std::vector<std::string>& order);
+
+// The same as lines of all tables.
+TrialLines linesOf(const Context& context, const Upcoming& trial, const TrialRecord& record);
 
 } // namespace obscura

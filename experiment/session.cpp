@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <optional>
 
 namespace obscura {
@@ -60,18 +61,20 @@ int hastyPressesOf(const TrialRecord& record) {
 bool playAll(const Context& context, Observer& observer, Recorder& recorder,
              std::vector<double>& intervals) {
     const auto& order = context.assignment.order;
-    const std::vector<Phase> phases = phasesOf(context.study.protocol.trial);
-    const std::optional<PairPhases> pair = pairPhasesOf(phases);
+    const Trial& shape = context.study.protocol.trial;
+    const std::vector<Phase> phases = phasesOf(shape);
+    std::vector<std::string> roles = shape.order;
+    if (context.assignment.reversed)
+        std::reverse(roles.begin(), roles.end());
     for (std::size_t i = 0; i < order.size(); ++i) {
         const Upcoming trial{static_cast<int>(i) + 1, static_cast<int>(order.size()), order[i],
-                             context.assignment.reversed};
-        TrialMachine machine(phases, 2, context.refresh.hz);
+                             roles};
+        TrialMachine machine(phases, static_cast<int>(roles.size()), context.refresh.hz);
         observer.prepare(trial);
         if (!play(machine, observer, recorder, trial.index,
-                  context.study.pair(trial.condition).condition))
+                  context.study.condition(trial.condition).condition))
             return false;
-        if (pair)
-            recorder.record(makeRow(context, trial, machine.record(), *pair));
+        recorder.finished(trial.index, linesOf(context, trial, machine.record()));
         if (const int hasty = hastyPressesOf(machine.record()))
             recorder.hastyPresses(trial.index, hasty);
         for (const PhaseRecord& phase : machine.record().phases)
@@ -98,7 +101,8 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
                study.protocol.seed, claim ? claim->slot() : 1);
     const Refresh refresh = observer.refresh();
     const Context context{study, session, assignment, refresh, designSha256};
-    Recorder recorder(folder, session, assignment.slot);
+    Recorder recorder(folder, session, assignment.slot,
+                      pairPhasesOf(study.protocol.trial).has_value());
     ordered_json sidecar = circumstances(context, observer);
     writeFile(folder.sidecar(session), sidecar.dump(2) + "\n");
 

@@ -16,7 +16,7 @@ namespace {
 ordered_json orderOf(const Study& study, const Assignment& assignment) {
     ordered_json order = ordered_json::array();
     for (const int condition : assignment.order)
-        order.push_back(study.pair(condition).condition);
+        order.push_back(study.condition(condition).condition);
     return order;
 }
 

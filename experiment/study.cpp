@@ -33,9 +33,10 @@ void checkBelongTogether(const Protocol& protocol, const Manifest& manifest) {
                                 "levels, techniques, conditions, image or seed have changed; {}",
                                 protocol.path.string(), remedy(protocol.path, manifest.folder)));
     for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
-        if (i >= manifest.pairs.size() || manifest.pairs[i].condition != protocol.conditions[i].id)
-            throw Error({place, 0, 0, fmt::format("pairs[{}]", i)},
-                        fmt::format("expected the pair of condition \"{}\"; {}",
+        if (i >= manifest.conditions.size() ||
+            manifest.conditions[i].condition != protocol.conditions[i].id)
+            throw Error({place, 0, 0, fmt::format("conditions[{}]", i)},
+                        fmt::format("expected the images of condition \"{}\"; {}",
                                     protocol.conditions[i].id,
                                     remedy(protocol.path, manifest.folder)));
 }
@@ -54,14 +55,15 @@ std::string readVerified(const Manifest& manifest, const FileRecord& record) {
 
 } // namespace
 
-const PairRecord& Study::pair(int condition) const {
-    return manifest.pairs.at(static_cast<std::size_t>(condition));
+const ConditionRecord& Study::condition(int index) const {
+    return manifest.conditions.at(static_cast<std::size_t>(index));
 }
 
 std::string Study::design() const {
     nlohmann::json design = nlohmann::json::parse(designOf(protocol));
-    for (const PairRecord& pair : manifest.pairs)
-        design["images"][pair.condition] = {{"a", pair.a.image.sha256}, {"b", pair.b.image.sha256}};
+    for (const ConditionRecord& condition : manifest.conditions)
+        for (const ImageRecord& image : condition.images)
+            design["images"][condition.condition][image.role] = image.image.sha256;
     return design.dump();
 }
 
@@ -71,13 +73,13 @@ Study openStudy(const fs::path& protocol, const fs::path& stimuli) {
                     "expected a folder with stimuli, found no manifest.json in it; " +
                         remedy(protocol, stimuli));
     Study study{readProtocol(protocol), readManifest(stimuli / "manifest.json")};
-    // The manifest's order of pairs is its writer's affair; ours is the protocol's.
-    std::vector<PairRecord> ordered;
+    // The manifest's order of conditions is its writer's affair; ours is the protocol's.
+    std::vector<ConditionRecord> ordered;
     for (const Condition& condition : study.protocol.conditions)
-        for (PairRecord& pair : study.manifest.pairs)
-            if (pair.condition == condition.id)
-                ordered.push_back(pair);
-    study.manifest.pairs = std::move(ordered);
+        for (const ConditionRecord& record : study.manifest.conditions)
+            if (record.condition == condition.id)
+                ordered.push_back(record);
+    study.manifest.conditions = std::move(ordered);
     checkBelongTogether(study.protocol, study.manifest);
     return study;
 }
@@ -93,9 +95,9 @@ Image8 loadStimulus(const Manifest& manifest, const ImageRecord& record) {
 }
 
 void verifyStimuli(const Manifest& manifest) {
-    for (const PairRecord& pair : manifest.pairs)
-        for (const ImageRecord* record : {&pair.a, &pair.b})
-            readVerified(manifest, record->image);
+    for (const ConditionRecord& condition : manifest.conditions)
+        for (const ImageRecord& image : condition.images)
+            readVerified(manifest, image.image);
 }
 
 } // namespace obscura

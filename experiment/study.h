@@ -14,7 +14,7 @@ struct Study {
     Protocol protocol;
     Manifest manifest;
 
-    const PairRecord& pair(int condition) const; // as the protocol counts them, from 0
+    const ConditionRecord& condition(int index) const; // as the protocol counts them, from 0
 
     // All that must be the same for every participant: the protocol's design
     // (protocols/reader/design.h) and the hashes of the images.

@@ -116,22 +116,6 @@ bool isControl(char c) {
 
 } // namespace
 
-std::vector<Box> gridOf(const Page::Pictures& pictures, int width, int below) {
-    constexpr int gap = 24;
-    const int most = std::max((width + gap) / (pictures.width + gap), 1);
-    const int rows = (pictures.count + most - 1) / most;
-    std::vector<Box> boxes;
-    for (int row = 0, done = 0; row < rows; ++row) { // rows as even as can be
-        const int columns = (pictures.count - done + rows - row - 1) / (rows - row);
-        const int left = (width - columns * pictures.width - (columns - 1) * gap) / 2;
-        for (int column = 0; column < columns; ++column, ++done)
-            boxes.push_back({left + column * (pictures.width + gap),
-                             row * (pictures.height + std::max(below, gap)), pictures.width,
-                             pictures.height});
-    }
-    return boxes;
-}
-
 DrawnPage drawPage(const Page& page, int width, int height, int grey) {
     const Palette palette = paletteFor(grey);
     const Canvas canvas(width, height, palette.paper);

@@ -238,7 +238,8 @@ void TrialMachine::go(Screen screen) {
 
 double TrialMachine::viewed(Screen screen, double time) const {
     const double now = visible_ == screen ? time - since_ : 0;
-    return (screen == leaveScreen ? 0 : record_.phases[static_cast<std::size_t>(screen)].view) + now;
+    return (screen == leaveScreen ? 0 : record_.phases[static_cast<std::size_t>(screen)].view) +
+           now;
 }
 
 } // namespace obscura

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "experiment/text.h"
+#include "experiment/page.h"
 
 #include <pango/pangocairo.h>
 

@@ -138,7 +138,7 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     Condition condition;
     condition.view = view.name;
     condition.level = options.level;
-    condition.pair = {"technique", "technique"};
+    condition.roles = {{"a", "technique"}};
     return makeRecipe(protocol, condition, 0, scenes, driver);
 }
 

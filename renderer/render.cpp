@@ -134,7 +134,7 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
     const View& view = protocol.view(condition.view);
     const Level& level = protocol.level(condition.level);
     const Settings settings = settingsOf(
-        protocol.technique(condition.pair[static_cast<std::size_t>(member)]), view.radius);
+        protocol.technique(condition.roles[static_cast<std::size_t>(member)].technique), view.radius);
     Recipe recipe;
     recipe.width = protocol.width;
     recipe.height = protocol.height;

@@ -40,13 +40,13 @@ std::map<std::string, ImageRecord> earlierRecords(const fs::path& folder,
         if (fs::exists(folder / name))
             try {
                 const Manifest manifest = readManifest(folder / name);
-                if (manifest.schemaVersion < Manifest{}.schemaVersion)
+                if (manifest.schemaVersion < 2)
                     warnings.push_back(fmt::format(
                         "{} is of version {}, which does not name the code that rendered: its "
                         "images are made anew",
                         (folder / name).string(), manifest.schemaVersion));
-                for (const PairRecord& pair : manifest.pairs)
-                    for (const ImageRecord& image : {pair.a, pair.b})
+                for (const ConditionRecord& condition : manifest.conditions)
+                    for (const ImageRecord& image : condition.images)
                         records[image.image.path] = image;
             } catch (const Error&) {
             }
@@ -122,13 +122,23 @@ ImageRecord write(const Rendering& rendering, const std::string& file, const fs:
     return record;
 }
 
-void checkMatched(const PairRecord& pair, const Place& place) {
-    if (pair.a.inputsSha256 != pair.b.inputsSha256)
-        throw Error(place, fmt::format("the pair is not matched: before occlusion, \"{}\" has the "
-                                       "hash {} and \"{}\" {}. The driver does not repeat itself; "
-                                       "render with another device of obscura-render --devices",
-                                       pair.a.name, pair.a.inputsSha256, pair.b.name,
-                                       pair.b.inputsSha256));
+// Of the images that are there.
+void checkMatched(const ConditionRecord& condition, const Place& place) {
+    const ImageRecord* first = nullptr;
+    for (const ImageRecord& image : condition.images) {
+        if (image.image.path.empty())
+            continue;
+        if (!first)
+            first = &image;
+        if (image.inputsSha256 != first->inputsSha256)
+            throw Error(place,
+                        fmt::format("the images are not matched: before occlusion, \"{}\" has "
+                                    "the hash {} and \"{}\" {}. The driver does not repeat "
+                                    "itself; render with another device of obscura-render "
+                                    "--devices",
+                                    first->name, first->inputsSha256, image.name,
+                                    image.inputsSha256));
+    }
 }
 
 Manifest emptyManifest(const Protocol& protocol) {
@@ -143,13 +153,15 @@ Manifest emptyManifest(const Protocol& protocol) {
     return manifest;
 }
 
-PairRecord emptyPair(const Protocol& protocol, const Condition& condition) {
-    PairRecord pair;
+ConditionRecord emptyPair(const Protocol& protocol, const Condition& condition) {
+    ConditionRecord pair;
     pair.condition = condition.id;
     pair.level = condition.level;
     pair.view = condition.view;
     pair.hypothesis = condition.hypothesis;
     pair.radius = protocol.view(condition.view).radius;
+    for (const Role& role : condition.roles)
+        pair.image(role.name);
     return pair;
 }
 
@@ -162,24 +174,28 @@ void addWarnings(std::vector<std::string>& all, const std::string& scene,
             all.push_back(full);
 }
 
-// The pairs of which both members are there.
+bool isFinished(const ConditionRecord& condition) {
+    return std::none_of(condition.images.begin(), condition.images.end(),
+                        [](const ImageRecord& image) { return image.image.path.empty(); });
+}
+
+// The conditions of which every image is there.
 Manifest finishedPart(Manifest manifest) {
-    std::erase_if(manifest.pairs, [](const PairRecord& pair) {
-        return pair.a.image.path.empty() || pair.b.image.path.empty();
-    });
+    std::erase_if(manifest.conditions,
+                  [](const ConditionRecord& condition) { return !isFinished(condition); });
     return manifest;
 }
 
-// Each image of a manifest in turn, with its condition and member.
+// Each image of a manifest in turn, with its condition.
 template <typename Visit>
 void eachImage(const Manifest& manifest, Visit visit) {
-    for (const PairRecord& pair : manifest.pairs)
-        for (const bool second : {false, true})
-            visit(pair, second ? pair.b : pair.a, second ? 1 : 0);
+    for (const ConditionRecord& condition : manifest.conditions)
+        for (const ImageRecord& image : condition.images)
+            visit(condition, image);
 }
 
-std::string nameOf(const PairRecord& pair, int member) {
-    return fmt::format("condition \"{}\", image {}", pair.condition, member == 0 ? "a" : "b");
+std::string nameOf(const ConditionRecord& condition, const ImageRecord& image) {
+    return fmt::format("condition \"{}\", image {}", condition.condition, image.role);
 }
 
 // Whether the difference between two recipes may leave the image as it is. If so, the pixels
@@ -198,13 +214,12 @@ class Verification {
 
     void conditions() const;
     void files() const;
-    void recipe(const PairRecord& pair, const ImageRecord& record, int member,
-                std::string_view code);
-    void rendering(const PairRecord& pair, const ImageRecord& record, int member);
+    void recipe(const ConditionRecord& pair, const ImageRecord& record, std::string_view code);
+    void rendering(const ConditionRecord& pair, const ImageRecord& record);
     int fromOtherCode() const { return fromOtherCode_; }
 
   private:
-    const Condition& condition(const PairRecord& pair) const;
+    const Condition& condition(const ConditionRecord& pair) const;
     void file(const FileRecord& record) const;
     void driver(const ImageRecord& record) const;
     Place placeOf(const FileRecord& record) const {
@@ -219,7 +234,7 @@ class Verification {
     int fromOtherCode_ = 0;
 };
 
-const Condition& Verification::condition(const PairRecord& pair) const {
+const Condition& Verification::condition(const ConditionRecord& pair) const {
     for (const Condition& each : protocol_.conditions)
         if (each.id == pair.condition)
             return each;
@@ -233,8 +248,8 @@ void Verification::conditions() const {
                                 (manifest_.folder / manifestName).string(), manifest_.study,
                                 protocol_.name, makeAnew));
     for (const Condition& each : protocol_.conditions)
-        if (std::none_of(manifest_.pairs.begin(), manifest_.pairs.end(),
-                         [&](const PairRecord& pair) { return pair.condition == each.id; }))
+        if (std::none_of(manifest_.conditions.begin(), manifest_.conditions.end(),
+                         [&](const ConditionRecord& pair) { return pair.condition == each.id; }))
             throw Error(each.place,
                         fmt::format("condition \"{}\" has no stimuli; {}", each.id, makeAnew));
 }
@@ -250,7 +265,7 @@ void Verification::file(const FileRecord& record) const {
 }
 
 void Verification::files() const {
-    eachImage(manifest_, [&](const PairRecord&, const ImageRecord& record, int) {
+    eachImage(manifest_, [&](const ConditionRecord&, const ImageRecord& record) {
         file(record.image);
         for (const auto& [kind, layer] : record.layers)
             file(layer);
@@ -268,10 +283,16 @@ void Verification::driver(const ImageRecord& record) const {
                                 driver_.version));
 }
 
-void Verification::recipe(const PairRecord& pair, const ImageRecord& record, int member,
+void Verification::recipe(const ConditionRecord& pair, const ImageRecord& record,
                           std::string_view code) {
     driver(record);
     const Condition& today = condition(pair);
+    const auto role = std::find_if(today.roles.begin(), today.roles.end(),
+                                   [&](const Role& each) { return each.name == record.role; });
+    if (role == today.roles.end())
+        throw Error(today.place,
+                    fmt::format("{} is not in the protocol; {}", nameOf(pair, record), makeAnew));
+    const int member = static_cast<int>(role - today.roles.begin());
     std::vector<std::string> found =
         differences(record.recipe, makeRecipe(protocol_, today, member, scenes_, driver_, code));
     const auto other = std::stable_partition(
@@ -282,11 +303,11 @@ void Verification::recipe(const PairRecord& pair, const ImageRecord& record, int
         throw Error(today.place,
                     fmt::format("{} ({}) was made by another recipe than the protocol gives now: "
                                 "{}; {}",
-                                nameOf(pair, member), record.image.path, fmt::join(found, "; "),
+                                nameOf(pair, record), record.image.path, fmt::join(found, "; "),
                                 makeAnew));
 }
 
-void Verification::rendering(const PairRecord& pair, const ImageRecord& record, int member) {
+void Verification::rendering(const ConditionRecord& pair, const ImageRecord& record) {
     const bool exrs = record.layers.contains("linear");
     const Rendering now = renderer_.render(record.recipe, exrs);
     const auto mustBe = [&](const FileRecord& file, bool same) {
@@ -294,7 +315,7 @@ void Verification::rendering(const PairRecord& pair, const ImageRecord& record, 
             throw Error(placeOf(file),
                         fmt::format("{}: its recipe now gives other pixels, so what renders has "
                                     "changed; {}",
-                                    nameOf(pair, member), makeAnew));
+                                    nameOf(pair, record), makeAnew));
     };
     const auto png = [&](const FileRecord& file, const Image8& image) {
         mustBe(file,
@@ -333,15 +354,16 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     result.manifest = emptyManifest(protocol);
     result.manifest.folder = folder;
     for (const Condition& condition : protocol.conditions)
-        result.manifest.pairs.push_back(emptyPair(protocol, condition));
+        result.manifest.conditions.push_back(emptyPair(protocol, condition));
 
     RecipeRenderer renderer(folders);
     for (std::size_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
         announce(static_cast<int>(i), static_cast<int>(images.size()), image.file);
         const Condition& condition = protocol.conditions[image.condition];
-        PairRecord& pair = result.manifest.pairs[image.condition];
-        ImageRecord& record = image.member == 0 ? pair.a : pair.b;
+        ConditionRecord& pair = result.manifest.conditions[image.condition];
+        const Role& role = condition.roles[static_cast<std::size_t>(image.member)];
+        ImageRecord& record = pair.image(role.name);
         const auto known = earlier.find(image.file);
         if (known != earlier.end() && proves(known->second, recipes[i], folder, layers)) {
             record = known->second;
@@ -356,9 +378,10 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
             result.writing += seconds() - start;
             ++result.rendered;
         }
-        record.name = condition.pair[static_cast<std::size_t>(image.member)];
+        record.role = role.name;
+        record.name = role.technique;
         record.recipe = recipes[i];
-        if (!pair.a.image.path.empty() && !pair.b.image.path.empty()) {
+        if (isFinished(pair)) {
             checkMatched(pair, condition.place);
             writeManifest(folder / unfinishedName, finishedPart(result.manifest));
         }
@@ -392,15 +415,15 @@ int verify(const Protocol& protocol, const Manifest& manifest, const Folders& fo
            const gl::Driver& driver, const Announce& announce, std::string_view code) {
     Verification verification(protocol, manifest, folders, driver);
     verification.conditions();
-    eachImage(manifest, [&](const PairRecord& pair, const ImageRecord& record, int member) {
-        verification.recipe(pair, record, member, code);
+    eachImage(manifest, [&](const ConditionRecord& pair, const ImageRecord& record) {
+        verification.recipe(pair, record, code);
     });
     verification.files();
-    const int total = static_cast<int>(manifest.pairs.size()) * 2;
-    int done = 0;
-    eachImage(manifest, [&](const PairRecord& pair, const ImageRecord& record, int member) {
+    int total = 0, done = 0;
+    eachImage(manifest, [&](const ConditionRecord&, const ImageRecord&) { ++total; });
+    eachImage(manifest, [&](const ConditionRecord& pair, const ImageRecord& record) {
         announce(done++, total, record.image.path);
-        verification.rendering(pair, record, member);
+        verification.rendering(pair, record);
     });
     return verification.fromOtherCode();
 }

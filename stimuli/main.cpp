@@ -37,10 +37,12 @@ void report(const GenerateResult& result, const fs::path& folder) {
             "{:.0f} MiB\n",
             t.scene, t.gbuffer, t.light, t.occlusion, t.composite, t.hash, result.writing,
             peakMemory());
-    for (const PairRecord& pair : result.manifest.pairs)
-        fmt::print("  {:<24} mean occlusion {:<16} {:.4f}   {:<16} {:.4f}   matched {:.12}\n",
-                   pair.condition, pair.a.name, pair.a.meanOcclusion, pair.b.name,
-                   pair.b.meanOcclusion, pair.a.inputsSha256);
+    for (const ConditionRecord& condition : result.manifest.conditions) {
+        std::string line = fmt::format("  {:<24} mean occlusion", condition.condition);
+        for (const ImageRecord& image : condition.images)
+            line += fmt::format(" {:<16} {:.4f}  ", image.name, image.meanOcclusion);
+        fmt::print("{} matched {:.12}\n", line, condition.images.front().inputsSha256);
+    }
 }
 
 // Prints a line for each technique: how much fitting has improved it on views that it was not
@@ -148,7 +150,7 @@ int run(int argc, char** argv) {
                                   announcing(progress, "verifying"));
         progress.reset();
         fmt::print("{}: all {} images repeat byte for byte\n", out.string(),
-                   manifest.pairs.size() * 2);
+                   manifest.conditions.size() * 2);
         if (others > 0)
             fmt::print("{} of them were made by other code, and come out the same\n", others);
     } else {

@@ -10,12 +10,10 @@ namespace obscura {
 std::vector<PlannedImage> plan(const Protocol& protocol) {
     std::vector<PlannedImage> images;
     for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
-        for (int member : {0, 1}) {
-            const Condition& condition = protocol.conditions[i];
-            images.push_back({i, member,
-                              fmt::format("{}_{}_{}.png", condition.id, member == 0 ? "a" : "b",
-                                          condition.pair[static_cast<std::size_t>(member)])});
-        }
+        for (const Role& role : protocol.conditions[i].roles)
+            images.push_back({i, static_cast<int>(&role - protocol.conditions[i].roles.data()),
+                              fmt::format("{}_{}_{}.png", protocol.conditions[i].id, role.name,
+                                          role.technique)});
     const auto load = [&](const PlannedImage& image) {
         const Condition& condition = protocol.conditions[image.condition];
         const View& view = protocol.view(condition.view);

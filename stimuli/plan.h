@@ -11,11 +11,11 @@ namespace obscura {
 // One image to make. Pure: nothing here needs files or OpenGL.
 struct PlannedImage {
     std::size_t condition = 0; // index into the protocol's conditions
-    int member = 0;            // 0 for a, 1 for b
+    int member = 0;            // index into the condition's roles
     std::string file;          // name of its PNG; layers go beside it
 };
 
-// Both members of every condition, in the order that loads each scene and sets up each lighting
+// Every image of every condition, in the order that loads each scene and sets up each lighting
 // once.
 std::vector<PlannedImage> plan(const Protocol& protocol);
 

@@ -122,9 +122,9 @@ json toJson(const std::vector<Phase>& phases) {
 
 // The shorthand as it has always been written, so that a study goes on under a later version.
 json toJson(const Trial& trial) {
-    const auto& [mask, grey, minimumView, given] = trial;
+    const auto& [mask, grey, minimumView, given, order] = trial;
     if (!given.empty())
-        return {{"grey", grey}, {"phases", toJson(given)}};
+        return {{"grey", grey}, {"phases", toJson(given)}, {"roles", order}};
     return {{"mask", mask}, {"grey", grey}, {"minimumView", minimumView}};
 }
 
@@ -134,17 +134,27 @@ struct SplitConditions {
     std::set<std::string> views, levels, techniques; // used
 };
 
+// A pair as it has always been written, so that a study goes on under a later version.
+void addRoles(json& condition, const std::vector<Role>& roles) {
+    if (roles.size() == 2 && roles[0].name == "a" && roles[1].name == "b")
+        condition["pair"] = {roles[0].technique, roles[1].technique};
+    else
+        for (const Role& role : roles)
+            condition["roles"][role.name] = role.technique;
+}
+
 SplitConditions split(const std::vector<Condition>& conditions) {
     SplitConditions result;
     for (const Condition& condition : conditions) {
-        const auto& [id, view, level, hypothesis, pair, simulated, place] = condition;
-        result.stimuli[id] = {
-            {"scene", view}, {"level", level}, {"hypothesis", hypothesis}, {"pair", pair}};
+        const auto& [id, view, level, hypothesis, roles, simulated, place] = condition;
+        result.stimuli[id] = {{"scene", view}, {"level", level}, {"hypothesis", hypothesis}};
+        addRoles(result.stimuli[id], roles);
         result.simulated[id] = {{"simulatedPreference", simulated.chooseB}};
         result.order.push_back(id);
         result.views.insert(view);
         result.levels.insert(level);
-        result.techniques.insert(pair.begin(), pair.end());
+        for (const Role& role : roles)
+            result.techniques.insert(role.technique);
     }
     return result;
 }

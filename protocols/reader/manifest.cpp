@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 // 2: recipes name the code that rendered.
-constexpr int newestVersion = 2;
+constexpr int newestVersion = 3; // 2 had pairs, 1 one contact sheet and no hash of the code
 
 // Writing ------------------------------------------------------------------------------------
 
@@ -247,19 +247,45 @@ ImageRecord readImageRecord(const Node& node) {
     return image;
 }
 
-PairRecord readPair(const Node& node) {
-    PairRecord pair;
-    node["condition"].read(pair.condition);
-    node["level"].read(pair.level);
-    node["view"].read(pair.view);
-    node["hypothesis"].read(pair.hypothesis);
-    node["radius"].read(pair.radius);
-    pair.a = readImageRecord(node["a"]);
-    pair.b = readImageRecord(node["b"]);
-    return pair;
+ConditionRecord readCondition(const Node& node) {
+    ConditionRecord condition;
+    node["condition"].read(condition.condition);
+    node["level"].read(condition.level);
+    node["view"].read(condition.view);
+    node["hypothesis"].read(condition.hypothesis);
+    node["radius"].read(condition.radius);
+    const auto add = [&](const std::string& role, const Node& image) {
+        condition.images.push_back(readImageRecord(image));
+        condition.images.back().role = role;
+    };
+    if (node.has("images"))
+        for (const auto& [role, image] : node["images"].entries())
+            add(role, image);
+    else // versions 1 and 2 had two
+        for (const char* role : {"a", "b"})
+            add(role, node[role]);
+    return condition;
 }
 
 } // namespace
+
+const ImageRecord* ConditionRecord::find(std::string_view role) const {
+    const auto found = std::find_if(images.begin(), images.end(),
+                                    [&](const ImageRecord& image) { return image.role == role; });
+    return found == images.end() ? nullptr : &*found;
+}
+
+const ImageRecord& ConditionRecord::image(std::string_view role) const {
+    if (const ImageRecord* found = find(role))
+        return *found;
+    throw Error(fmt::format("condition \"{}\" has no image \"{}\"", condition, role));
+}
+
+ImageRecord& ConditionRecord::image(std::string_view role) {
+    if (!find(role))
+        images.emplace_back().role = role;
+    return const_cast<ImageRecord&>(*find(role));
+}
 
 std::string Recipe::json() const { return toJson(*this).dump(); }
 std::string Recipe::sha256() const { return obscura::sha256(json()); }
@@ -313,8 +339,8 @@ Manifest readManifest(const std::filesystem::path& path) {
     root["commit"].read(manifest.commit);
     root["width"].read(manifest.width);
     root["height"].read(manifest.height);
-    for (const Node& pair : root["pairs"].items())
-        manifest.pairs.push_back(readPair(pair));
+    for (const Node& condition : root[manifest.schemaVersion < 3 ? "pairs" : "conditions"].items())
+        manifest.conditions.push_back(readCondition(condition));
     if (root.has("contactSheets"))
         for (const Node& sheet : root["contactSheets"].items())
             manifest.contactSheets.push_back(readFileRecord(sheet));
@@ -325,15 +351,18 @@ Manifest readManifest(const std::filesystem::path& path) {
 }
 
 void writeManifest(const std::filesystem::path& path, const Manifest& manifest) {
-    json pairs = json::array();
-    for (const PairRecord& pair : manifest.pairs)
-        pairs.push_back({{"condition", pair.condition},
-                         {"level", pair.level},
-                         {"view", pair.view},
-                         {"hypothesis", pair.hypothesis},
-                         {"radius", pair.radius},
-                         {"a", toJson(pair.a)},
-                         {"b", toJson(pair.b)}});
+    json conditions = json::array();
+    for (const ConditionRecord& condition : manifest.conditions) {
+        json images = json::object();
+        for (const ImageRecord& image : condition.images)
+            images[image.role] = toJson(image);
+        conditions.push_back({{"condition", condition.condition},
+                              {"level", condition.level},
+                              {"view", condition.view},
+                              {"hypothesis", condition.hypothesis},
+                              {"radius", condition.radius},
+                              {"images", images}});
+    }
     json sheets = json::array();
     for (const FileRecord& sheet : manifest.contactSheets)
         sheets.push_back(toJson(sheet));
@@ -345,7 +374,7 @@ void writeManifest(const std::filesystem::path& path, const Manifest& manifest) 
                        {"commit", manifest.commit},
                        {"width", manifest.width},
                        {"height", manifest.height},
-                       {"pairs", pairs},
+                       {"conditions", conditions},
                        {"contactSheets", sheets}};
     writeFile(path, root.dump(2) + "\n");
 }

@@ -2,6 +2,7 @@
 
 #include "protocols/reader/protocol.h"
 
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -36,6 +37,7 @@ struct FileRecord {
 };
 
 struct ImageRecord {
+    std::string role; // in its condition: "a", "b", "reference"
     std::string name; // of the technique setting: "blizzard24"
     Recipe recipe;
     std::string
@@ -45,11 +47,18 @@ struct ImageRecord {
     std::map<std::string, FileRecord> layers; // "ao" always; "linear", "albedo", ... on request
 };
 
-struct PairRecord {
+struct ConditionRecord {
     std::string condition; // id
     std::string level, view, hypothesis;
-    double radius = 0; // metres, both members'
-    ImageRecord a, b;
+    double radius = 0; // metres, that of every image
+    std::deque<ImageRecord> images; // references stay valid while it grows
+
+    const ImageRecord* find(std::string_view role) const; // null when there is none
+    // An Error when there is none.
+    const ImageRecord& image(std::string_view role) const;
+    ImageRecord& image(std::string_view role); // added when there is none
+    // Two images, a and b, between which one chooses.
+    bool isPair() const { return find("a") && find("b"); }
 };
 
 // What obscura-stimuli wrote, and all that the presenter and the report need to know of it.
@@ -60,10 +69,10 @@ struct Manifest {
                                 // that were written before there was one
     std::string commit;
     int width = 0, height = 0;
-    std::vector<PairRecord> pairs;
+    std::vector<ConditionRecord> conditions;
     std::vector<FileRecord> contactSheets; // pages in order
 
-    int schemaVersion = 2;        // of the file that was read
+    int schemaVersion = 3;        // of the file that was read
     std::filesystem::path folder; // where it was read from; paths are relative to it
 };
 

@@ -79,19 +79,19 @@ Level parseLevel(const std::string& name, TomlTable table) {
 
 namespace {
 
-// One member of a pair: a technique's name. It is no table, because a table could only say things
-// that must not differ.
-std::string parseMember(TomlTable& condition, const toml::node& node, std::size_t index,
+// An image's technique: a name. It is no table, because a table could only say things that must not
+// differ.
+std::string parseMember(TomlTable& condition, const toml::node& node, const std::string& key,
                         const Protocol& protocol) {
-    const std::string path = fmt::format("{}[{}]", condition.pathOf("pair"), index + 1);
+    const std::string path = condition.pathOf(key);
     const Place place = condition.placeOf(node, path);
     if (const toml::table* table = node.as_table()) {
-        for (const auto& [key, value] : *table)
-            if (key.str() != "technique")
-                throw Error(condition.placeOf(value, fmt::format("{}.{}", path, key.str())),
-                            fmt::format("the members of a pair may differ only in the technique; "
-                                        "\"{}\" belongs to the condition",
-                                        key.str()));
+        for (const auto& [inner, value] : *table)
+            if (inner.str() != "technique")
+                throw Error(condition.placeOf(value, fmt::format("{}.{}", path, inner.str())),
+                            fmt::format("the images of a condition may differ only in the "
+                                        "technique; \"{}\" belongs to the condition",
+                                        inner.str()));
     }
     const toml::node* named = node.is_table() ? node.as_table()->get("technique") : &node;
     if (!named || !named->is_string())
@@ -110,22 +110,79 @@ std::optional<double> ownRadius(const TechniqueSetting& technique) {
     return std::nullopt;
 }
 
-void checkPair(const Condition& condition, const Protocol& protocol, const Place& place) {
-    if (condition.pair[0] == condition.pair[1])
-        throw Error(place, fmt::format("expected two different techniques, found \"{}\" twice",
-                                       condition.pair[0]));
-    const TechniqueSetting& a = protocol.technique(condition.pair[0]);
-    const TechniqueSetting& b = protocol.technique(condition.pair[1]);
-    if (a.technique == "none" || b.technique == "none")
-        return;
+// Of those between which the order decides, no two may be the same; and all reach equally far.
+void checkRoles(const Condition& condition, const Protocol& protocol, const Place& place) {
     const double common = protocol.view(condition.view).radius;
-    const double radiusA = ownRadius(a).value_or(common), radiusB = ownRadius(b).value_or(common);
-    if (radiusA != radiusB)
+    const Role* reaching = nullptr; // the first of a technique with a radius
+    for (const Role& role : condition.roles) {
+        const TechniqueSetting& technique = protocol.technique(role.technique);
+        for (const Role& other : condition.roles)
+            if (&other != &role && other.technique == role.technique &&
+                isOrdered(protocol.trial, role.name) && isOrdered(protocol.trial, other.name))
+                throw Error(place, fmt::format("expected different techniques, found \"{}\" twice",
+                                               role.technique));
+        if (technique.technique == "none")
+            continue;
+        if (!reaching)
+            reaching = &role;
+        const TechniqueSetting& first = protocol.technique(reaching->technique);
+        const double one = ownRadius(first).value_or(common),
+                     here = ownRadius(technique).value_or(common);
+        if (one != here)
+            throw Error(place,
+                        fmt::format("the images of a condition may differ only in the technique; "
+                                    "\"{}\" has radius {} m, \"{}\" {} m. Give both the same, or "
+                                    "none, and the scene's radius is used",
+                                    first.name, one, technique.name, here));
+    }
+}
+
+// What the phases show must be there.
+void checkShown(const Condition& condition, const Protocol& protocol, const Place& place) {
+    for (const std::string& role : rolesOf(protocol.trial))
+        if (std::none_of(condition.roles.begin(), condition.roles.end(),
+                         [&](const Role& each) { return each.name == role; }))
+            throw Error(place, fmt::format("expected an image \"{}\", which the trial shows, found "
+                                           "none",
+                                           role));
+}
+
+void parsePair(TomlTable& table, const toml::node& pair, Condition& condition,
+               const Protocol& protocol) {
+    const toml::array* members = pair.as_array();
+    if (!members || members->size() != 2)
         throw Error(
-            place, fmt::format("the members of a pair may differ only in the technique; \"{}\" has "
-                               "radius {} m, \"{}\" {} m. Give both the same, or none, and the "
-                               "scene's radius is used",
-                               a.name, radiusA, b.name, radiusB));
+            table.placeOf(pair, table.pathOf("pair")),
+            fmt::format("expected the names of two techniques, found {}", TomlTable::spell(pair)));
+    for (std::size_t i = 0; i < 2; ++i)
+        condition.roles.push_back(
+            {i == 0 ? "a" : "b",
+             parseMember(table, *members->get(i), fmt::format("pair[{}]", i + 1), protocol)});
+}
+
+void parseRoles(TomlTable& table, Condition& condition, const Protocol& protocol) {
+    const toml::node *pair = table.node("pair"), *roles = table.node("roles");
+    if ((pair != nullptr) == (roles != nullptr))
+        throw Error(table.place(),
+                    fmt::format("expected either \"pair\", the names of two techniques, or "
+                                "\"roles\", a technique for each image's role, found {}",
+                                pair ? "both" : "neither"));
+    if (pair) {
+        parsePair(table, *pair, condition, protocol);
+        return;
+    }
+    const toml::table* named = roles->as_table();
+    if (!named || named->empty())
+        throw Error(table.placeOf(*roles, table.pathOf("roles")),
+                    fmt::format("expected a technique for each role, such as {{ a = \"none\" }}, "
+                                "found {}",
+                                TomlTable::spell(*roles)));
+    for (const auto& [name, node] : *named) {
+        checkName(table, "roles", std::string(name.str()), "", "");
+        condition.roles.push_back(
+            {std::string(name.str()),
+             parseMember(table, node, fmt::format("roles.{}", name.str()), protocol)});
+    }
 }
 
 Condition parseCondition(TomlTable table, const Protocol& protocol) {
@@ -138,16 +195,11 @@ Condition parseCondition(TomlTable table, const Protocol& protocol) {
     condition.hypothesis = table.text("hypothesis", "-");
     condition.simulated.chooseB =
         table.number("simulatedPreference", 0, 1, condition.simulated.chooseB);
-
-    const toml::node* pair = table.node("pair");
-    const toml::array* members = pair ? pair->as_array() : nullptr;
-    if (!members || members->size() != 2)
-        throw Error(pair ? table.placeOf(*pair, table.pathOf("pair")) : table.place(),
-                    fmt::format("expected the names of two techniques, found {}",
-                                pair ? TomlTable::spell(*pair) : "no \"pair\""));
-    for (std::size_t i = 0; i < 2; ++i)
-        condition.pair[i] = parseMember(table, *members->get(i), i, protocol);
-    checkPair(condition, protocol, table.placeOf(*pair, table.pathOf("pair")));
+    parseRoles(table, condition, protocol);
+    const char* const given = table.has("pair") ? "pair" : "roles";
+    const Place place = table.placeOf(*table.node(given), table.pathOf(given));
+    checkRoles(condition, protocol, place);
+    checkShown(condition, protocol, place);
     table.finish();
     return condition;
 }
@@ -242,9 +294,9 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     Techniques techniques = parseTechniques(root);
     protocol.techniques = std::move(techniques.techniques);
     includedSha256 = techniques.includedSha256;
-    parseConditions(root, protocol);
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
+    parseConditions(root, protocol);
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(std::move(*ordering));
     protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"),

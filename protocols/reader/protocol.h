@@ -24,13 +24,19 @@ struct SimulatedChoice {
     double chooseB = 0.5; // probability of choosing member b, before position bias
 };
 
-// Two images alike in everything but the technique: member 0 is "a", member 1 is "b".
+// An image of a condition: what it is there, and the technique that it is rendered with.
+struct Role {
+    std::string name;      // "a", "b", "reference"; lower-case letters and digits
+    std::string technique; // name of one of `techniques`
+};
+
+// Images alike in everything but the technique.
 struct Condition {
     std::string id;
     std::string view;  // name of one of `views`
     std::string level; // name of one of `levels`
     std::string hypothesis;
-    std::array<std::string, 2> pair; // names of `techniques`
+    std::vector<Role> roles; // sorted by name; those of a pair are a and b
     SimulatedChoice simulated;
     Place place;
 };

@@ -160,7 +160,32 @@ std::vector<Phase> parsePhases(TomlTable& trial) {
     return phases;
 }
 
+bool isPlace(const std::string& image) {
+    return image.size() < 4 && image.find_first_not_of("0123456789") == image.npos;
+}
+
+// The roles in order, and that no phase names a place beyond them.
+void parseOrder(TomlTable& table, Trial& trial) {
+    if (const auto roles = table.texts("order", "roles, such as [\"a\", \"b\"]"); !roles.empty()) {
+        trial.order.clear();
+        std::set<std::string> names;
+        for (const PlacedText& role : roles) {
+            mustBeNew(names, role.text, role.place);
+            trial.order.push_back(role.text);
+        }
+    }
+    for (const Phase& phase : trial.given)
+        for (const std::string& image : phase.images)
+            if (isPlace(image) && (std::stoul(image) < 1 || std::stoul(image) > trial.order.size()))
+                throw Error(phase.place,
+                            fmt::format("expected a place from 1 to {}, the number of roles in "
+                                        "\"order\", found {}",
+                                        trial.order.size(), image));
+}
+
 } // namespace
+
+std::string nameOf(Question::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
 std::vector<Phase> phasesOf(const Trial& trial) {
     if (!trial.given.empty())
@@ -188,6 +213,19 @@ std::vector<Phase> phasesOf(const Trial& trial) {
     return {start, first, mask, second, question};
 }
 
+std::set<std::string> rolesOf(const Trial& trial) {
+    std::set<std::string> roles(trial.order.begin(), trial.order.end());
+    for (const Phase& phase : trial.given)
+        for (const std::string& image : phase.images)
+            if (!isPlace(image))
+                roles.insert(image);
+    return roles;
+}
+
+bool isOrdered(const Trial& trial, const std::string& role) {
+    return std::find(trial.order.begin(), trial.order.end(), role) != trial.order.end();
+}
+
 std::set<std::string> textsOf(const std::vector<Phase>& phases) {
     std::set<std::string> keys;
     for (const Phase& phase : phases) {
@@ -206,6 +244,7 @@ Trial parseTrial(TomlTable table) {
     trial.grey = table.integer("grey", 0, 255, trial.grey);
     if (table.has("phases")) {
         trial.given = parsePhases(table);
+        parseOrder(table, trial);
     } else {
         trial.mask = table.number("mask", 0.1, 60, trial.mask);
         trial.minimumView = table.number("minimumView", 0, 60, trial.minimumView);

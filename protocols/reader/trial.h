@@ -29,6 +29,8 @@ struct Question {
     Place place;
 };
 
+std::string nameOf(Question::Kind kind); // "choice", as protocols spell it
+
 // One step of a trial: what is on the screen, and what ends it. An image is named by its place in
 // the trial's order, "1" being the one that comes first, or by its role in the condition.
 struct Phase {
@@ -62,10 +64,16 @@ struct Trial {
     int grey = 128;           // code value of mask and surround, 0 ... 255
     double minimumView = 0.5; // seconds during which Space does not yet end an image
     std::vector<Phase> given; // none: the shorthand
+    // The roles whose images the order puts at the places 1, 2 and so on.
+    std::vector<std::string> order = {"a", "b"};
 };
 
 // The phases as they are run.
 std::vector<Phase> phasesOf(const Trial& trial);
+
+// Every role that the trial shows or puts in order.
+std::set<std::string> rolesOf(const Trial& trial);
+bool isOrdered(const Trial& trial, const std::string& role);
 
 // The keys of [texts] that the phases name.
 std::set<std::string> textsOf(const std::vector<Phase>& phases);

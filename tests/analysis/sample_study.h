@@ -52,22 +52,22 @@ inline std::filesystem::path writeStimuli(const std::filesystem::path& folder) {
     manifest.height = 36;
     for (const auto& [condition, level] :
          {std::pair("c2", "high"), std::pair("c1", "moderate"), std::pair("c3", "moderate")}) {
-        PairRecord pair;
+        ConditionRecord pair;
         pair.condition = condition;
         pair.level = level;
         pair.view = "atrium";
         pair.hypothesis = "H1";
         pair.radius = 0.5;
-        pair.a.name = "none";
-        pair.b.name = "blizzard24";
-        pair.b.meanOcclusion = 0.125;
-        pair.a.image = {"a.png", std::string(64, 'a')};
-        pair.b.image = {"b.png", std::string(64, 'b')};
-        for (Recipe* recipe : {&pair.a.recipe, &pair.b.recipe}) {
+        pair.image("a").name = "none";
+        pair.image("b").name = "blizzard24";
+        pair.image("b").meanOcclusion = 0.125;
+        pair.image("a").image = {"a.png", std::string(64, 'a')};
+        pair.image("b").image = {"b.png", std::string(64, 'b')};
+        for (Recipe* recipe : {&pair.image("a").recipe, &pair.image("b").recipe}) {
             recipe->programVersion = "0.1.0";
             recipe->glRenderer = "llvmpipe";
         }
-        manifest.pairs.push_back(pair);
+        manifest.conditions.push_back(pair);
     }
     const std::string picture = "\x89PNG, or so we say";
     writeFile(folder / "contact_sheet.png", picture);

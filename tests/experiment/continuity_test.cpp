@@ -71,7 +71,7 @@ TEST_F(ContinuityTest, AnotherDesignIsRefusedByName) {
 
 TEST_F(ContinuityTest, OtherImagesAreAnotherDesign) {
     run("S01");
-    study.manifest.pairs[2].a.image.sha256 = std::string(64, '7');
+    study.manifest.conditions[2].image("a").image.sha256 = std::string(64, '7');
     EXPECT_THAT([&] { checkContinues(folder, study); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("images.c3.a was \""),
                                            HasSubstr("...\", is now \"777777777777...\""))));

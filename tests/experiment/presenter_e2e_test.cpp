@@ -96,9 +96,9 @@ class PresenterTest : public testing::Test {
         return fmt::format("pair {} of 7, {}", pair, screen);
     }
     void seesImage(test::Desktop& desktop, Program& program, int pair, int number) {
-        const PairRecord& images = study.pair(pair - 1);
+        const ConditionRecord& images = study.condition(pair - 1);
         sees(desktop, program, titleOf(pair, number == 1 ? "first image" : "second image"),
-             image(number == 1 ? images.a : images.b));
+             image(number == 1 ? images.image("a") : images.image("b")));
     }
     void seesStart(test::Desktop& desktop, Program& program, int pair) {
         sees(desktop, program, titleOf(pair, "start"), drawn(startPage(texts, pair, 7)).image);
@@ -281,7 +281,7 @@ TEST_F(PresenterTest, ASecondPresenterGetsAnotherSlot) {
     seesStart(two, second, 1);
     two.tap(XK_space);
     // Slot 2 begins with condition 2.
-    sees(two, second, titleOf(1, "first image"), image(study.pair(1).a));
+    sees(two, second, titleOf(1, "first image"), image(study.condition(1).image("a")));
 
     const auto slots = Ledger(dataFolder().ledger()).records();
     ASSERT_EQ(slots.size(), 2u);

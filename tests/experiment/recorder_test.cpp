@@ -1,9 +1,11 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "experiment/recorder.h"
+#include "protocols/reader/trial_tables.h"
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -48,6 +50,17 @@ Response row(int trial) {
     return row;
 }
 
+// Of a trial: the row, and something for the other tables.
+TrialLines lines(int trial) {
+    PhaseRow phase;
+    phase.trial.rowId = fmt::format("P1-1-{}-first", trial);
+    phase.phase = "first";
+    AnswerRow answer;
+    answer.trial.rowId = fmt::format("P1-1-{}-why", trial);
+    answer.value = "darker, \"softer\"\nand calmer";
+    return {responseLine(row(trial)), phaseLine(phase), answerLine(answer)};
+}
+
 class RecorderTest : public testing::Test {
   protected:
     test::TemporaryFolder temporary;
@@ -64,9 +77,9 @@ class RecorderTest : public testing::Test {
 };
 
 TEST_F(RecorderTest, WritesRowsThatReadBack) {
-    Recorder recorder(folder, session, 1);
-    recorder.record(row(1));
-    recorder.record(row(2));
+    Recorder recorder(folder, session, 1, true);
+    recorder.finished(1, lines(1));
+    recorder.finished(2, lines(2));
     const ResponseFile file = readResponses(folder.rows(session), false);
     ASSERT_EQ(file.rows.size(), 2u);
     EXPECT_EQ(file.rows[1].trialIndex, 2);
@@ -74,8 +87,8 @@ TEST_F(RecorderTest, WritesRowsThatReadBack) {
 }
 
 TEST_F(RecorderTest, TheDatasetFollowsPsychDs) {
-    Recorder recorder(folder, session, 1);
-    recorder.record(row(1));
+    Recorder recorder(folder, session, 1, true);
+    recorder.finished(1, lines(1));
     recorder.end("completed");
     EXPECT_THAT(test::psychDsFaults(dataset), IsEmpty());
     EXPECT_EQ(folder.rows(session).filename(), "study-tinystudy_subject-P1_session-1_data.csv");
@@ -83,7 +96,7 @@ TEST_F(RecorderTest, TheDatasetFollowsPsychDs) {
 }
 
 TEST_F(RecorderTest, TheCheckerFindsFaults) {
-    { Recorder recorder(folder, session, 1); }
+    { Recorder recorder(folder, session, 1, true); }
     std::ofstream(dataset / "data" / "P1.csv") << "a,a\n1\n";
     EXPECT_EQ(test::psychDsFaults(dataset).size(), 4u); // name, column twice, columns, length
     fs::remove(dataset / "data" / "P1.csv");
@@ -93,11 +106,11 @@ TEST_F(RecorderTest, TheCheckerFindsFaults) {
 
 TEST_F(RecorderTest, NeverOverwrites) {
     {
-        Recorder recorder(folder, session, 1);
-        recorder.record(row(1));
+        Recorder recorder(folder, session, 1, true);
+        recorder.finished(1, lines(1));
     }
     const std::string before = readFile(folder.rows(session));
-    EXPECT_THAT([&] { Recorder(folder, session, 2); },
+    EXPECT_THAT([&] { Recorder(folder, session, 2, true); },
                 ThrowsMessage<Error>(HasSubstr("expected to create a new file")));
     EXPECT_EQ(readFile(folder.rows(session)), before);
     EXPECT_THAT(objection(folder, session), HasSubstr("there are data of P1, session 1"));
@@ -106,7 +119,7 @@ TEST_F(RecorderTest, NeverOverwrites) {
 }
 
 TEST_F(RecorderTest, JournalsEachStepBeforeReturning) {
-    Recorder recorder(folder, session, 3);
+    Recorder recorder(folder, session, 3, true);
     recorder.trialStarted(1, "c5");
     std::string journal = readFile(folder.journal(session));
     EXPECT_THAT(journal, HasSubstr("session_started"));
@@ -123,9 +136,9 @@ TEST_F(RecorderTest, KilledProcessLosesNoRow) {
     ASSERT_EQ(::pipe(ready), 0);
     const pid_t child = ::fork();
     if (child == 0) {
-        Recorder recorder(folder, session, 1);
+        Recorder recorder(folder, session, 1, true);
         for (int trial = 1; trial <= 3; ++trial)
-            recorder.record(row(trial));
+            recorder.finished(trial, lines(trial));
         recorder.trialStarted(4, "c4");
         EXPECT_EQ(::write(ready[1], "r", 1), 1);
         ::pause();
@@ -139,6 +152,29 @@ TEST_F(RecorderTest, KilledProcessLosesNoRow) {
     EXPECT_THAT(readFile(folder.journal(session)), HasSubstr("\"trial\":4"));
 }
 
+// Whatever a crash keeps from the tables, the journal has: cut anywhere (at every 13th byte here,
+// for each time is several of the disk's own), each is whole again.
+TEST_F(RecorderTest, TablesAreRestoredFromTheJournalByteForByte) {
+    {
+        Recorder recorder(folder, session, 1, true);
+        for (int trial = 1; trial <= 2; ++trial)
+            recorder.finished(trial, lines(trial));
+    }
+    EXPECT_EQ(restoreTables(folder, session), 0);
+    for (const fs::path& path :
+         {folder.rows(session), folder.phases(session), folder.answers(session)}) {
+        const std::string whole = readFile(path);
+        for (std::size_t cut = whole.find('\n') + 1; cut < whole.size(); cut += 13) {
+            std::ofstream(path, std::ios::trunc) << whole.substr(0, cut);
+            restoreTables(folder, session);
+            ASSERT_EQ(readFile(path), whole) << path << " cut at " << cut;
+        }
+        fs::remove(path);
+        EXPECT_EQ(restoreTables(folder, session), 1);
+        EXPECT_EQ(readFile(path), whole);
+    }
+}
+
 // A full disk, played by a limit on the size of files: the row that does not fit leaves no trace in
 // the file, and stands in the error.
 TEST_F(RecorderTest, ARowThatDoesNotFitLeavesNoHalfLine) {
@@ -148,10 +184,10 @@ TEST_F(RecorderTest, ARowThatDoesNotFitLeavesNoHalfLine) {
         ::signal(SIGXFSZ, SIG_IGN);
         const rlimit limit{whole + 100, whole + 100};
         ::setrlimit(RLIMIT_FSIZE, &limit);
-        Recorder recorder(folder, session, 1);
-        recorder.record(row(1));
+        Recorder recorder(folder, session, 1, true);
+        recorder.finished(1, lines(1));
         try {
-            recorder.record(row(2));
+            recorder.finished(2, lines(2));
         } catch (const Error& error) {
             ::_exit(std::string(error.what()).find("P1-1-2") != std::string::npos ? 0 : 2);
         }
@@ -171,7 +207,7 @@ TEST_F(RecorderTest, NoFileIsThereWithoutItsHeader) {
         const rlimit limit{10, 10};
         ::setrlimit(RLIMIT_FSIZE, &limit);
         try {
-            Recorder recorder(folder, session, 1);
+            Recorder recorder(folder, session, 1, true);
         } catch (const Error&) {
             ::_exit(0);
         }

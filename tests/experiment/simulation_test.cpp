@@ -334,8 +334,8 @@ TEST_F(SimulationTest, AChangedImageIsRefused) {
     EXPECT_THAT([&] { verifyStimuli(tiny.manifest); },
                 ThrowsMessage<Error>(AllOf(HasSubstr("c3_b.png: not the image"),
                                            HasSubstr("run obscura-stimuli again"))));
-    EXPECT_THROW(loadStimulus(tiny.manifest, tiny.pair(2).b), Error);
-    EXPECT_NO_THROW(loadStimulus(tiny.manifest, tiny.pair(2).a));
+    EXPECT_THROW(loadStimulus(tiny.manifest, tiny.condition(2).image("b")), Error);
+    EXPECT_NO_THROW(loadStimulus(tiny.manifest, tiny.condition(2).image("a")));
 }
 
 TEST_F(SimulationTest, AFolderWithoutStimuliIsRefused) {
@@ -347,10 +347,10 @@ TEST_F(SimulationTest, AFolderWithoutStimuliIsRefused) {
 TEST_F(SimulationTest, AMissingPairIsRefused) {
     const test::TinyStudy tiny = test::writeTinyStudy(folder.path());
     Manifest manifest = readManifest(tiny.stimuli / "manifest.json");
-    manifest.pairs.pop_back();
+    manifest.conditions.pop_back();
     writeManifest(tiny.stimuli / "manifest.json", manifest);
     EXPECT_THAT([&] { openStudy(tiny.protocol, tiny.stimuli); },
-                ThrowsMessage<Error>(HasSubstr("expected the pair of condition \"c7\"")));
+                ThrowsMessage<Error>(HasSubstr("expected the images of condition \"c7\"")));
 }
 
 } // namespace

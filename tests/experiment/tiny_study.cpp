@@ -110,14 +110,18 @@ TinyStudy writeTinyStudy(const fs::path& folder, const TinyOptions& options) {
     manifest.width = options.width;
     manifest.height = options.height;
     for (std::size_t i = 0; i < tinyPreferences().size(); ++i) {
-        PairRecord pair;
+        ConditionRecord pair;
         pair.condition = fmt::format("c{}", i + 1);
         pair.level = "low";
         pair.view = "box";
         pair.hypothesis = "H1";
-        pair.a = writeImage(study.stimuli, options, pair.condition + "_a.png", "none");
-        pair.b = writeImage(study.stimuli, options, pair.condition + "_b.png", "crytek24");
-        manifest.pairs.push_back(std::move(pair));
+        pair.images.push_back(
+            writeImage(study.stimuli, options, pair.condition + "_a.png", "none"));
+        pair.images.back().role = "a";
+        pair.images.push_back(
+            writeImage(study.stimuli, options, pair.condition + "_b.png", "crytek24"));
+        pair.images.back().role = "b";
+        manifest.conditions.push_back(std::move(pair));
     }
     writeManifest(study.stimuli / "manifest.json", manifest);
     return study;

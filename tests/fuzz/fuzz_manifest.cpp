@@ -7,9 +7,9 @@ using namespace obscura;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const FuzzFile file({reinterpret_cast<const char*>(data), size});
     readsOrRefuses([&] {
-        for (const PairRecord& pair : readManifest(file.path()).pairs) {
-            pair.a.recipe.json();
-            pair.b.recipe.json();
+        for (const ConditionRecord& condition : readManifest(file.path()).conditions) {
+            for (const ImageRecord& image : condition.images)
+                image.recipe.json();
         }
     });
     return 0;

@@ -116,20 +116,21 @@ TEST_F(Generate, WritesMatchedPairs) {
     const GenerateResult result = run();
     EXPECT_EQ(result.rendered, 4);
     const Manifest manifest = readManifest(root_ / "out" / "manifest.json");
-    ASSERT_EQ(manifest.pairs.size(), 2u);
-    EXPECT_EQ(manifest.pairs[0].condition, "first");
-    for (const PairRecord& pair : manifest.pairs) {
-        EXPECT_EQ(pair.a.inputsSha256, pair.b.inputsSha256);
-        EXPECT_NE(pair.a.recipe.technique, pair.b.recipe.technique);
-        for (const ImageRecord& image : {pair.a, pair.b}) {
+    ASSERT_EQ(manifest.conditions.size(), 2u);
+    EXPECT_EQ(manifest.conditions[0].condition, "first");
+    for (const ConditionRecord& pair : manifest.conditions) {
+        EXPECT_EQ(pair.image("a").inputsSha256, pair.image("b").inputsSha256);
+        EXPECT_NE(pair.image("a").recipe.technique, pair.image("b").recipe.technique);
+        for (const ImageRecord& image : {pair.image("a"), pair.image("b")}) {
             EXPECT_EQ(sha256File(root_ / "out" / image.image.path), image.image.sha256);
             EXPECT_TRUE(image.layers.contains("ao"));
             EXPECT_EQ(image.recipe.settings.contains("radius"), image.recipe.technique != "none");
         }
     }
-    EXPECT_NE(manifest.pairs[0].a.inputsSha256, manifest.pairs[1].a.inputsSha256); // levels differ
-    EXPECT_EQ(manifest.pairs[1].a.meanOcclusion, 0);
-    EXPECT_GT(manifest.pairs[0].a.meanOcclusion, 0.1); // Crytek on a plane
+    EXPECT_NE(manifest.conditions[0].image("a").inputsSha256,
+              manifest.conditions[1].image("a").inputsSha256); // levels differ
+    EXPECT_EQ(manifest.conditions[1].image("a").meanOcclusion, 0);
+    EXPECT_GT(manifest.conditions[0].image("a").meanOcclusion, 0.1); // Crytek on a plane
     EXPECT_TRUE(fs::exists(root_ / "out" / manifest.contactSheets.at(0).path));
     EXPECT_FALSE(fs::exists(root_ / "out" / "unfinished-manifest.json"));
 }
@@ -156,7 +157,7 @@ TEST_F(Generate, RendersAgainWhatASettingConcerns) {
 }
 
 TEST_F(Generate, RendersAgainWhatWasTouchedOrLost) {
-    const std::string image = run().manifest.pairs[0].a.image.path;
+    const std::string image = run().manifest.conditions[0].image("a").image.path;
     writeFile(root_ / "out" / image, "not the image");
     EXPECT_EQ(run().rendered, 1);
     fs::remove(root_ / "out" / image);
@@ -179,7 +180,8 @@ TEST_F(Generate, AnEnvironmentImageLightsLikeTheSkyItShows) {
     text.replace(text.find("sky = {}"), 8, "environment = \"sky.exr\"");
     const GenerateResult sky = run(protocolText(), "sky"), image = run(text, "image");
     const auto lit = [&](const GenerateResult& result) {
-        const fs::path path = result.manifest.folder / result.manifest.pairs[1].b.image.path;
+        const fs::path path =
+            result.manifest.folder / result.manifest.conditions[1].image("b").image.path;
         return readImage8(path).pixels;
     };
     EXPECT_EQ(lit(sky), lit(image));
@@ -198,10 +200,10 @@ TEST_F(Generate, LayersAreAddedOnRequest) {
     EXPECT_EQ(run(protocolText(), "out", true).rendered, 4);
     const Manifest manifest = readManifest(root_ / "out" / "manifest.json");
     for (const char* layer : {"ao", "visibility", "linear", "albedo", "depth"})
-        EXPECT_TRUE(manifest.pairs[0].a.layers.contains(layer)) << layer;
+        EXPECT_TRUE(manifest.conditions[0].image("a").layers.contains(layer)) << layer;
     // A constant light and a technique of depth alone: nobody asks for normals, so there are none.
-    EXPECT_FALSE(manifest.pairs[0].a.layers.contains("occlusion-normal"));
-    EXPECT_TRUE(manifest.pairs[0].b.layers.contains("occlusion-normal"));
+    EXPECT_FALSE(manifest.conditions[0].image("a").layers.contains("occlusion-normal"));
+    EXPECT_TRUE(manifest.conditions[0].image("b").layers.contains("occlusion-normal"));
 }
 
 TEST_F(Generate, AnInterruptedRunLeavesNothingHalfDone) {
@@ -224,7 +226,7 @@ TEST_F(Generate, APairThatIsNotMatchedIsRefused) {
     run();
     const fs::path path = root_ / "out" / "manifest.json";
     Manifest manifest = readManifest(path);
-    manifest.pairs[0].a.inputsSha256 = std::string(64, '0');
+    manifest.conditions[0].image("a").inputsSha256 = std::string(64, '0');
     writeManifest(path, manifest);
     try {
         run();
@@ -238,7 +240,7 @@ TEST_F(Generate, APairThatIsNotMatchedIsRefused) {
 // Equal recipes give equal images: what renders is part of them.
 TEST_F(Generate, RendersAgainWhenTheRenderingCodeChanges) {
     const GenerateResult first = run();
-    EXPECT_EQ(first.manifest.pairs[0].a.recipe.codeSha256, imageCode());
+    EXPECT_EQ(first.manifest.conditions[0].image("a").recipe.codeSha256, imageCode());
     EXPECT_EQ(run(protocolText(), "out", false, quiet, "edited").rendered, 4);
     EXPECT_EQ(run(protocolText(), "out", false, quiet, "edited").rendered, 0);
     EXPECT_EQ(verified(protocolText(), "edited"), 0);
@@ -269,7 +271,8 @@ camera = { position = [0.4, 0.5, 1.5], target = [0.3, 0.3, 0], fovDegrees = 50 }
     const GenerateResult after = run(text);
     EXPECT_EQ(after.rendered, 2);
     EXPECT_EQ(after.kept, 2);
-    EXPECT_NE(after.manifest.pairs[1].a.image.sha256, before.pairs[1].a.image.sha256);
+    EXPECT_NE(after.manifest.conditions[1].image("a").image.sha256,
+              before.conditions[1].image("a").image.sha256);
     verified(text);
 }
 
@@ -320,8 +323,8 @@ TEST_F(Generate, VerifyingNoticesEveryFileThatChanged) {
     run(protocolText(), "out", true);
     const Manifest manifest = readManifest(root_ / "out" / "manifest.json");
     std::vector<std::string> files{manifest.contactSheets.at(0).path,
-                                   manifest.pairs[1].b.image.path};
-    for (const auto& [kind, file] : manifest.pairs[0].b.layers)
+                                   manifest.conditions[1].image("b").image.path};
+    for (const auto& [kind, file] : manifest.conditions[0].image("b").layers)
         files.push_back(file.path);
     EXPECT_GE(files.size(), 7u);
     for (const std::string& file : files) {
@@ -337,14 +340,14 @@ TEST_F(Generate, VerifyingRendersEveryLayerAgain) {
     run(protocolText(), "out", true);
     const fs::path path = root_ / "out" / "manifest.json";
     const Manifest manifest = readManifest(path);
-    for (const auto& [kind, layer] : manifest.pairs[0].b.layers) {
+    for (const auto& [kind, layer] : manifest.conditions[0].image("b").layers) {
         const std::string whole = readFile(root_ / "out" / layer.path);
-        const std::string& other = manifest.pairs[1].b.layers.at(kind).path;
+        const std::string& other = manifest.conditions[1].image("b").layers.at(kind).path;
         writeFile(root_ / "out" / layer.path, readFile(root_ / "out" / other));
         Manifest forged = manifest;
-        forged.pairs[0].b.layers[kind].sha256 = sha256File(root_ / "out" / other);
+        forged.conditions[0].image("b").layers[kind].sha256 = sha256File(root_ / "out" / other);
         writeManifest(path, forged);
-        if (layer.sha256 != forged.pairs[0].b.layers[kind].sha256) {
+        if (layer.sha256 != forged.conditions[0].image("b").layers[kind].sha256) {
             EXPECT_THAT(test::errorOf([&] { verified(); }),
                         testing::HasSubstr("its recipe now gives other pixels"))
                 << kind;

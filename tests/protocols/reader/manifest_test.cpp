@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <filesystem>
 
@@ -20,26 +21,27 @@ Manifest sample() {
     manifest.commit = "abc";
     manifest.width = 64;
     manifest.height = 36;
-    PairRecord pair;
+    ConditionRecord pair;
     pair.condition = "one";
     pair.level = "high";
     pair.view = "box";
     pair.radius = 0.2;
-    pair.a.name = "none";
-    pair.a.recipe.view.builtin = "sculpture";
-    pair.a.recipe.view.camera.position = {0.1, 1.0 / 3, 3};
-    pair.a.recipe.level.sky = Sky{};
-    pair.a.recipe.level.sun = Sun{30, 50, {1, 2, 3}};
-    pair.a.recipe.technique = "none";
-    pair.a.image = {"a.png", std::string(64, '1')};
-    pair.b = pair.a;
-    pair.b.recipe.level.sky.reset();
-    pair.b.recipe.level.sun.reset();
-    pair.b.recipe.level.ambient = Vec3{1, 1, 1};
-    pair.b.recipe.settings = {{"radius", 0.2}, {"samples", 24}};
-    pair.b.meanOcclusion = 0.125;
-    pair.b.layers["ao"] = {"b_ao.png", std::string(64, '2')};
-    manifest.pairs.push_back(pair);
+    pair.image("a").name = "none";
+    pair.image("a").recipe.view.builtin = "sculpture";
+    pair.image("a").recipe.view.camera.position = {0.1, 1.0 / 3, 3};
+    pair.image("a").recipe.level.sky = Sky{};
+    pair.image("a").recipe.level.sun = Sun{30, 50, {1, 2, 3}};
+    pair.image("a").recipe.technique = "none";
+    pair.image("a").image = {"a.png", std::string(64, '1')};
+    pair.image("b") = pair.image("a");
+    pair.images.back().role = "b";
+    pair.image("b").recipe.level.sky.reset();
+    pair.image("b").recipe.level.sun.reset();
+    pair.image("b").recipe.level.ambient = Vec3{1, 1, 1};
+    pair.image("b").recipe.settings = {{"radius", 0.2}, {"samples", 24}};
+    pair.image("b").meanOcclusion = 0.125;
+    pair.image("b").layers["ao"] = {"b_ao.png", std::string(64, '2')};
+    manifest.conditions.push_back(pair);
     manifest.contactSheets = {{"sheet-1.png", std::string(64, '3')},
                               {"sheet-2.png", std::string(64, '4')}};
     return manifest;
@@ -54,13 +56,13 @@ TEST(ManifestTest, WhatIsWrittenIsRead) {
     writeManifest(file(), manifest);
     EXPECT_EQ(readFile(file()), first); // every field came back, to the last bit
     EXPECT_EQ(manifest.title, "A “small” study");
-    EXPECT_EQ(manifest.pairs.at(0).a.recipe.view.camera.position[1], 1.0 / 3);
-    EXPECT_EQ(manifest.pairs.at(0).b.layers.at("ao").path, "b_ao.png");
+    EXPECT_EQ(manifest.conditions.at(0).image("a").recipe.view.camera.position[1], 1.0 / 3);
+    EXPECT_EQ(manifest.conditions.at(0).image("b").layers.at("ao").path, "b_ao.png");
 }
 
 // Whatever decides pixels must decide the hash, or a stale image would be kept.
 TEST(ManifestTest, EveryPartOfARecipeChangesItsHash) {
-    const Recipe base = sample().pairs[0].a.recipe;
+    const Recipe base = sample().conditions[0].image("a").recipe;
     const std::vector<std::pair<const char*, void (*)(Recipe&)>> changes = {
         {"width", [](Recipe& r) { r.width = 1; }},
         {"height", [](Recipe& r) { r.height = 1; }},
@@ -114,12 +116,12 @@ TEST(ManifestTest, AMissingFieldIsNamed) {
         FAIL();
     } catch (const Error& error) {
         EXPECT_THAT(error.what(),
-                    testing::HasSubstr("pairs[1].a.meanOcclusion: expected this key"));
+                    testing::HasSubstr("conditions[1].images.a.meanOcclusion: expected this key"));
     }
 }
 
 TEST(ManifestTest, DifferencesAreSpelt) {
-    const Recipe recorded = sample().pairs[0].b.recipe;
+    const Recipe recorded = sample().conditions[0].image("b").recipe;
     Recipe now = recorded;
     now.settings["radius"] = 0.3;
     now.settings.erase("samples");
@@ -133,24 +135,46 @@ TEST(ManifestTest, DifferencesAreSpelt) {
     EXPECT_THAT(differences(now, now), testing::IsEmpty());
 }
 
+// Version 2 had pairs, and version 1 no hash of the code.
 TEST(ManifestTest, AnEarlierVersionIsRead) {
     writeManifest(file(), sample());
-    std::string text = readFile(file());
-    text.replace(text.find("\"schemaVersion\": 2"), 18, "\"schemaVersion\": 1");
-    for (std::size_t at; (at = text.find("\"codeSha256\"")) != text.npos;)
-        text.erase(at, text.find('\n', at) - at);
-    writeFile(file(), text);
+    nlohmann::json json = nlohmann::json::parse(readFile(file()));
+    json["schemaVersion"] = 1;
+    json["pairs"] = json["conditions"];
+    json.erase("conditions");
+    for (nlohmann::json& pair : json["pairs"]) {
+        pair["a"] = pair["images"]["a"];
+        pair["b"] = pair["images"]["b"];
+        pair.erase("images");
+        for (const char* role : {"a", "b"})
+            pair[role]["recipe"].erase("codeSha256");
+    }
+    writeFile(file(), json.dump());
     const Manifest manifest = readManifest(file());
     EXPECT_EQ(manifest.schemaVersion, 1);
-    EXPECT_EQ(manifest.pairs[0].a.recipe.codeSha256, "");
-    EXPECT_EQ(manifest.pairs[0].a.recipe.technique, "none");
+    EXPECT_TRUE(manifest.conditions[0].isPair());
+    EXPECT_EQ(manifest.conditions[0].image("a").recipe.codeSha256, "");
+    EXPECT_EQ(manifest.conditions[0].image("a").recipe.technique, "none");
+}
+
+TEST(ManifestTest, HasImagesOfOtherRoles) {
+    Manifest manifest = sample();
+    ImageRecord& reference = manifest.conditions[0].image("reference");
+    reference = manifest.conditions[0].image("a");
+    reference.role = "reference";
+    reference.name = "traced";
+    writeManifest(file(), manifest);
+    const Manifest read = readManifest(file());
+    EXPECT_EQ(read.conditions[0].images.size(), 3u);
+    EXPECT_EQ(read.conditions[0].image("reference").name, "traced");
+    EXPECT_EQ(read.conditions[0].find("c"), nullptr);
 }
 
 TEST(ManifestTest, AListMustBeOne) {
     writeManifest(file(), sample());
     const std::string text = readFile(file());
-    for (const char* wrong : {"{}", "3", "null", "\"pairs\""}) {
-        const std::size_t at = text.find("\"pairs\": ") + 9;
+    for (const char* wrong : {"{}", "3", "null", "\"conditions\""}) {
+        const std::size_t at = text.find("\"conditions\": ") + 14;
         writeFile(file(), text.substr(0, at) + wrong + "}");
         EXPECT_THROW(readManifest(file()), Error) << wrong;
     }
@@ -162,7 +186,7 @@ TEST(ManifestTest, AnotherVersionIsRefused) {
         readManifest(file());
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("schemaVersion: expected 1 ... 2, found 99"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("schemaVersion: expected 1 ... 3, found 99"));
     }
 }
 

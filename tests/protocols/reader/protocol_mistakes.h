@@ -120,7 +120,8 @@ inline const Mistake mistakes[] = {
      "small.toml:34:9: conditions[1].level: expected the name of a level under [levels], found "
      "\"lwo\"; did you mean \"low\"?"},
     {"PairMissing", "pair = [\"none\", \"blizzard24\"]\n", "",
-     "small.toml:31:1: conditions[1]: expected the names of two techniques, found no \"pair\""},
+     "small.toml:31:1: conditions[1]: expected either \"pair\", the names of two techniques, or "
+     "\"roles\", a technique for each image's role, found neither"},
     {"PairHasThree", "[\"none\", \"blizzard24\"]", "[\"none\", \"blizzard24\", \"wide\"]",
      "small.toml:35:8: conditions[1].pair: expected the names of two techniques, found an array of "
      "3"},
@@ -128,18 +129,21 @@ inline const Mistake mistakes[] = {
      "small.toml:35:17: conditions[1].pair[2]: expected the name of a technique under "
      "[techniques], found \"blizard24\"; did you mean \"blizzard24\"?"},
     {"PairIsOneTechniqueTwice", "[\"none\", \"blizzard24\"]", "[\"none\", \"none\"]",
-     "small.toml:35:8: conditions[1].pair: expected two different techniques, found \"none\" "
+     "small.toml:35:8: conditions[1].pair: expected different techniques, found \"none\" "
      "twice"},
     {"PairDiffersInLevel", "[\"none\", \"blizzard24\"]",
      "[\"none\", { technique = \"blizzard24\", level = \"high\" }]",
-     "small.toml:35:53: conditions[1].pair[2].level: the members of a pair may differ only in the "
+     "small.toml:35:53: conditions[1].pair[2].level: the images of a condition may differ only in "
+     "the "
      "technique; \"level\" belongs to the condition"},
     {"PairDiffersInCamera", "[\"none\", \"blizzard24\"]",
      "[\"none\", { technique = \"blizzard24\", camera = { fovDegrees = 50 } }]",
-     "small.toml:35:54: conditions[1].pair[2].camera: the members of a pair may differ only in the "
+     "small.toml:35:54: conditions[1].pair[2].camera: the images of a condition may differ only in "
+     "the "
      "technique; \"camera\" belongs to the condition"},
     {"PairDiffersInRadius", "[\"none\", \"blizzard24\"]", "[\"wide\", \"blizzard24\"]",
-     "small.toml:35:8: conditions[1].pair: the members of a pair may differ only in the technique; "
+     "small.toml:35:8: conditions[1].pair: the images of a condition may differ only in the "
+     "technique; "
      "\"wide\" has radius 0.5 m, \"blizzard24\" 0.2 m. Give both the same, or none, and the "
      "scene's radius is used"},
     {"UnknownConditionKey", "level = \"low\"", "level = \"low\"\nlevels = \"high\"",

@@ -76,7 +76,7 @@ TEST(Protocol, ReadsAWholeStudy) {
     EXPECT_TRUE(protocol.level("low").ambient.has_value());
     EXPECT_EQ(protocol.level("high").sun->elevationDegrees, 50);
     EXPECT_EQ(protocol.technique("blizzard24").settings.at(0).value, 24);
-    EXPECT_EQ(protocol.conditions.at(0).pair[1], "blizzard24");
+    EXPECT_EQ(protocol.conditions.at(0).roles.at(1).technique, "blizzard24");
     EXPECT_EQ(protocol.conditions.at(0).place.line, 31);
     EXPECT_EQ(protocol.sha256.size(), 64u);
 }

@@ -38,9 +38,10 @@ std::vector<Case> cases() {
     std::vector<Case> result;
     for (std::size_t i = 0; i < study().conditions.size(); ++i)
         for (const int member : {0, 1})
-            result.push_back({study().conditions[i].id + "_" +
-                                  study().conditions[i].pair[static_cast<std::size_t>(member)],
-                              i, member});
+            result.push_back(
+                {study().conditions[i].id + "_" +
+                     study().conditions[i].roles[static_cast<std::size_t>(member)].technique,
+                 i, member});
     return result;
 }
 
@@ -116,8 +117,8 @@ TEST(GoldenCases, CoverEveryTechniqueAndLevel) {
     std::set<std::string> shown, levels;
     for (const Condition& condition : study().conditions) {
         levels.insert(condition.level);
-        for (const std::string& name : condition.pair)
-            shown.insert(study().technique(name).technique);
+        for (const Role& role : condition.roles)
+            shown.insert(study().technique(role.technique).technique);
     }
     for (const Technique& row : techniques())
         EXPECT_TRUE(shown.contains(std::string(row.id))) << row.id;
