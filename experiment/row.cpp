@@ -12,7 +12,7 @@ namespace {
 
 std::string settings(const Recipe& recipe) { return nlohmann::json(recipe.settings).dump(); }
 
-Response identity(const Context& context, const Upcoming& trial) {
+Response identity(const Context& context, const Upcoming& trial, const PlannedTrial& planned) {
     Response row;
     row.rowId =
         fmt::format("{}-{}-{}", context.session.participant, context.session.number, trial.index);
@@ -25,8 +25,10 @@ Response identity(const Context& context, const Upcoming& trial) {
     row.slotId = context.assignment.slot;
     row.squareId = context.assignment.square;
     row.squareRow = context.assignment.row;
-    row.pairsReversed = context.assignment.reversed;
+    row.pairsReversed = context.assignment.exchange != 0;
     row.trialIndex = trial.index;
+    row.trialKind = nameOf(planned.kind);
+    row.repeatIndex = planned.repeat;
     return row;
 }
 
@@ -81,8 +83,9 @@ void addProvenance(Response& row, const Protocol& protocol) {
 
 } // namespace
 
-Response makeRow(const Context& context, const Upcoming& trial, const TrialRecord& record) {
-    Response row = identity(context, trial);
+Response makeRow(const Context& context, const Upcoming& trial, const PlannedTrial& planned,
+                 const TrialRecord& record) {
+    Response row = identity(context, trial, planned);
     addCondition(row, context.study.pair(trial.condition), trial.reversed);
     addTiming(row, record, context.refresh);
     addAnswer(row, record);

@@ -2,7 +2,7 @@
 
 #include "experiment/ledger.h"
 #include "experiment/observer.h"
-#include "experiment/schedule.h"
+#include "experiment/selection.h"
 #include "experiment/study.h"
 #include "experiment/trial.h"
 #include "protocols/reader/responses.h"
@@ -19,6 +19,7 @@ struct Context {
 };
 
 // A trial's outcome as the row that is kept of it.
-Response makeRow(const Context& context, const Upcoming& trial, const TrialRecord& record);
+Response makeRow(const Context& context, const Upcoming& trial, const PlannedTrial& planned,
+                 const TrialRecord& record);
 
 } // namespace obscura

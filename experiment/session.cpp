@@ -4,6 +4,7 @@
 #include "experiment/continuity.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
+#include "experiment/selection.h"
 #include "experiment/sidecar.h"
 #include "experiment/signals.h"
 
@@ -48,20 +49,38 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
     }
 }
 
+// HOOK of the trial machine: shows texts.rest until Space; false when the person left. Until there
+// is such a page, a break takes no time.
+bool takeBreak(Observer&) { return true; }
+
+// What an order may depend on. The answer "choice" is the member chosen.
+PastTrial remember(const PlannedTrial& planned, const Response& row) {
+    return {planned, {{"choice", row.choseB ? "b" : "a"}}, row.interrupted};
+}
+
 // All trials, or those until the person left: true when all were answered. Adds to the intervals of
 // the masks.
 bool playAll(const Context& context, Observer& observer, Recorder& recorder,
              std::vector<double>& maskIntervals) {
-    const auto& order = context.assignment.order;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Upcoming trial{static_cast<int>(i) + 1, static_cast<int>(order.size()), order[i],
-                             context.assignment.reversed};
-        TrialMachine machine(context.study.protocol.trial, context.refresh.hz);
+    const Protocol& protocol = context.study.protocol;
+    const int count = longest(protocol);
+    std::vector<PastTrial> history;
+    for (int index = 1; const auto planned = next(protocol, context.assignment.slot, history);) {
+        if (planned->kind == PlannedTrial::Kind::rest) {
+            if (!takeBreak(observer))
+                return false;
+            history.push_back({*planned, {}, false});
+            continue;
+        }
+        const Upcoming trial{index++, count, planned->condition, planned->reversed()};
+        TrialMachine machine(protocol.trial, context.refresh.hz);
         observer.prepare(trial);
         if (!play(machine, observer, recorder, trial.index,
                   context.study.pair(trial.condition).condition))
             return false;
-        recorder.record(makeRow(context, trial, machine.record()));
+        const Response row = makeRow(context, trial, *planned, machine.record());
+        recorder.record(row);
+        history.push_back(remember(*planned, row));
         if (const int hasty = machine.record().hastyPresses)
             recorder.hastyPresses(trial.index, hasty);
         const auto& intervals = machine.record().maskIntervals;
@@ -83,9 +102,7 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
         claim.emplace(ledger, session, designSha256);
         keepDesign(folder, study);
     }
-    const Assignment assignment =
-        assign(study.protocol.ordering.scheme, static_cast<int>(study.protocol.conditions.size()),
-               study.protocol.seed, claim ? claim->slot() : 1);
+    const Assignment assignment = assign(study.protocol, claim ? claim->slot() : 1);
     const Refresh refresh = observer.refresh();
     const Context context{study, session, assignment, refresh, designSha256};
     Recorder recorder(folder, session, assignment.slot);

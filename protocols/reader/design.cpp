@@ -85,20 +85,53 @@ json toJson(const Texts& texts) {
     return words;
 }
 
+// All that decides an order, and of that only what differs from how it was before there was a
+// choice: the designs of studies that run must not change. The planned number of participants
+// decides none.
+json toJson(const Ordering& ordering) {
+    const auto& [scheme, participants, repeats, blocks, apart, practice, catches, catchEvery,
+                 breakEvery, staircase] = ordering;
+    const auto& [down, up, reversals, trials, answer] = staircase;
+    const auto nameOf = [](Likeness one) { return likenessNames()[static_cast<std::size_t>(one)]; };
+    json result = {{"scheme", orderSchemeNames()[static_cast<std::size_t>(scheme)]}};
+    if (repeats != 1)
+        result["repeats"] = repeats;
+    if (blocks)
+        result["blocks"] = nameOf(*blocks);
+    if (apart)
+        result["apart"] = nameOf(*apart);
+    if (!practice.empty())
+        result["practice"] = practice;
+    if (!catches.empty())
+        result.update({{"catch", catches}, {"catchEvery", catchEvery}});
+    if (breakEvery)
+        result["breakEvery"] = breakEvery;
+    if (scheme == OrderScheme::staircase)
+        result.update({{"down", down},
+                       {"up", up},
+                       {"reversals", reversals},
+                       {"trials", trials},
+                       {"answer", answer}});
+    return result;
+}
+
 // Conditions are kept by their ids, because pictures do not depend on their order.
 struct SplitConditions {
     json stimuli = json::object(), simulated = json::object(), order = json::array();
+    json correct = json::object();                   // where there is a right answer
     std::set<std::string> views, levels, techniques; // used
 };
 
 SplitConditions split(const std::vector<Condition>& conditions) {
     SplitConditions result;
     for (const Condition& condition : conditions) {
-        const auto& [id, view, level, hypothesis, pair, simulated, place] = condition;
+        const auto& [id, view, level, hypothesis, pair, simulated, correct, place] = condition;
         result.stimuli[id] = {
             {"scene", view}, {"level", level}, {"hypothesis", hypothesis}, {"pair", pair}};
         result.simulated[id] = {{"simulatedPreference", simulated.chooseB}};
         result.order.push_back(id);
+        if (!correct.empty())
+            result.correct[id] = correct;
         result.views.insert(view);
         result.levels.insert(level);
         result.techniques.insert(pair.begin(), pair.end());
@@ -122,7 +155,6 @@ Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
                  conditions, trial, ordering, words, simulation, path, sha256] = protocol;
     const auto& [mask, grey, minimumView] = trial;
-    const auto& [scheme, participants] = ordering;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -132,15 +164,15 @@ Parts split(const Protocol& protocol) {
         {"image", {{"width", width}, {"height", height}, {"antialiasing", antialiasing}}},
         {"normals", normalsNames()[static_cast<std::size_t>(normals)]},
         {"conditions", parts.stimuli}};
-    static_assert(static_cast<int>(OrderScheme::thesis) == 0); // the only one so far
-    (void)scheme;
     result.procedure = {{"trial", {{"mask", mask}, {"grey", grey}, {"minimumView", minimumView}}},
-                        {"ordering", {{"scheme", "thesis"}}},
+                        {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};
+    if (!parts.correct.empty())
+        result.procedure["correct answers"] = parts.correct;
     result.texts = {{"name", name},
                     {"title", title},
                     {"texts", toJson(words)},
-                    {"ordering", {{"participants", participants}}},
+                    {"ordering", {{"participants", ordering.participants}}},
                     {"simulation",
                      {{"positionBias", positionBias},
                       {"view", toJson(viewTime)},

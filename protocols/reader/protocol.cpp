@@ -138,6 +138,8 @@ Condition parseCondition(TomlTable table, const Protocol& protocol) {
     condition.hypothesis = table.text("hypothesis", "-");
     condition.simulated.chooseB =
         table.number("simulatedPreference", 0, 1, condition.simulated.chooseB);
+    if (table.has("correct"))
+        condition.correct = table.choice("correct", {"a", "b"}, 0) == 0 ? "a" : "b";
 
     const toml::node* pair = table.node("pair");
     const toml::array* members = pair ? pair->as_array() : nullptr;
@@ -172,12 +174,11 @@ Trial parseTrial(TomlTable table) {
     return trial;
 }
 
-Ordering parseOrdering(TomlTable table) {
-    Ordering ordering;
-    table.choice("scheme", {"thesis"}, 0);
-    ordering.participants = table.integer("participants", 1, 100000, ordering.participants);
-    table.finish();
-    return ordering;
+std::vector<ConditionLabels> labelsOf(const std::vector<Condition>& conditions) {
+    std::vector<ConditionLabels> labels;
+    for (const Condition& one : conditions)
+        labels.push_back({one.id, one.view, one.level, one.correct});
+    return labels;
 }
 
 // Braces around anything but the name of a number are a mistake in spelling.
@@ -248,7 +249,7 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
     if (auto ordering = root.table("ordering"))
-        protocol.ordering = parseOrdering(std::move(*ordering));
+        protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions));
     protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"));
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
@@ -275,6 +276,7 @@ std::span<const TextKey> textKeys() {
         {"leaveNote", &Texts::leaveNote},
         {"stay", &Texts::stay},
         {"end", &Texts::end},
+        {"rest", &Texts::rest},
         {"id", &Texts::id},
         {"idNote", &Texts::idNote},
         {"idMalformed", &Texts::idMalformed},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "protocols/reader/ordering.h"
 #include "protocols/reader/study.h"
 
 #include <array>
@@ -31,7 +32,8 @@ struct Condition {
     std::string hypothesis;
     std::array<std::string, 2> pair; // names of `techniques`
     SimulatedChoice simulated;
-    Place place;
+    std::string correct = {}; // the right answer, "a" or "b"; "" where there is none
+    Place place = {};
 };
 
 // image 1, grey mask, image 2, forced choice.
@@ -39,13 +41,6 @@ struct Trial {
     double mask = 2;          // seconds of grey between the images; cannot be skipped
     int grey = 128;           // code value of mask and surround, 0 ... 255
     double minimumView = 0.5; // seconds during which Space does not yet end an image
-};
-
-enum class OrderScheme { thesis };
-
-struct Ordering {
-    OrderScheme scheme = OrderScheme::thesis;
-    int participants = 28; // planned; what --simulate runs when no number is given
 };
 
 // Everything that participants read, UTF-8. A study says what it asks; the rest is English unless
@@ -59,6 +54,7 @@ struct Texts {
     std::string unfocused = "The keyboard is elsewhere: click here to go on";
     std::string leave = "End the session?", leaveNote = "Answers given so far are kept.";
     std::string stay = "Continue", end = "End";
+    std::string rest = "Take a break. Press the space bar to go on.";
     std::string id = "Type the participant's pseudonym and press Enter.";
     std::string idNote = "Letters and digits. Escape ends the program.";
     std::string idMalformed = "A pseudonym is 1 to 32 letters (a-z) and digits.";

@@ -421,7 +421,7 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
                    "anyKey = \"Weiter mit jeder Taste.\"\nloading = \"Bilder werden geladen.\"\n"
                    "unfocused = \"Bitte hier klicken\"\nleave = \"Abbrechen?\"\n"
                    "leaveNote = \"Antworten bleiben erhalten.\"\nstay = \"Weiter\"\n"
-                   "end = \"Abbrechen\"\nid = \"Pseudonym, dann Eingabe\"\n"
+                   "end = \"Abbrechen\"\nrest = \"Pause\"\nid = \"Pseudonym, dann Eingabe\"\n"
                    "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"});
     for (const TextKey& key : textKeys())
         EXPECT_TRUE(key.compulsory || texts.*key.text != Texts().*key.text) << key.name;
