@@ -133,22 +133,28 @@ class Shuffle {
     std::string last_; // label; "" before the first
 };
 
+std::vector<int> rowOf(const Protocol& protocol, const std::vector<int>& conditions,
+                       const Assignment& place, int repeat) {
+    const LatinSquare square =
+        squareOf(protocol.ordering.scheme, static_cast<int>(conditions.size()), protocol.seed,
+                 place.square, repeat);
+    std::vector<int> order;
+    for (const int index : square[static_cast<std::size_t>(place.row - 1)])
+        order.push_back(conditions[static_cast<std::size_t>(index)]);
+    return order;
+}
+
 // All presentations of a block's conditions.
 std::vector<PlannedTrial> blockTrials(const Protocol& protocol, const std::vector<int>& conditions,
                                       const Assignment& place) {
     const Ordering& ordering = protocol.ordering;
-    const auto count = static_cast<int>(conditions.size());
     Shuffle shuffle(protocol, conditions,
                     fmt::format("order/slot {} of {}", place.slot, conditions.front()));
     std::vector<PlannedTrial> trials;
     for (int repeat = 1; repeat <= ordering.repeats; ++repeat) {
-        std::vector<int> order;
-        if (ordering.scheme == OrderScheme::shuffle)
-            order = shuffle.pass();
-        else
-            for (const int index : squareOf(ordering.scheme, count, protocol.seed, place.square,
-                                            repeat)[static_cast<std::size_t>(place.row - 1)])
-                order.push_back(conditions[static_cast<std::size_t>(index)]);
+        const std::vector<int> order = ordering.scheme == OrderScheme::shuffle
+                                           ? shuffle.pass()
+                                           : rowOf(protocol, conditions, place, repeat);
         for (const int condition : order) {
             PlannedTrial trial{Kind::main, condition, {}, repeat};
             const auto index = std::find(conditions.begin(), conditions.end(), condition);

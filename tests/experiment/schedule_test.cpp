@@ -206,8 +206,7 @@ TEST(Schedule, RepeatsAreInAFreshOrderAndMeetNothingTheyFollow) {
             for (std::uint64_t seed = 0; seed < 20; ++seed) {
                 const LatinSquare once = squareOf(scheme, n, seed, 1, 1),
                                   again = squareOf(scheme, n, seed, 1, 2);
-                if (n > 3)
-                    EXPECT_NE(once, again);
+                EXPECT_TRUE(once != again || n <= 3);
                 for (std::size_t row = 0; row < once.size(); ++row)
                     EXPECT_NE(once[row].back(), again[row].front());
             }

@@ -71,8 +71,8 @@ positionBias = {}
                     options.ordering, options.texts, options.positionBias, options.simulation);
     for (std::size_t i = 0; i < tinyPreferences().size(); ++i)
         text += fmt::format("[[conditions]]\nid = \"c{}\"\nscene = \"box\"\nlevel = \"low\"\n"
-                            "pair = [\"none\", \"crytek24\"]\nsimulatedPreference = {}\n",
-                            i + 1, tinyPreferences()[i]);
+                            "pair = [\"none\", \"crytek24\"]\nsimulatedPreference = {}\n{}\n",
+                            i + 1, tinyPreferences()[i], options.conditions);
     return text;
 }
 

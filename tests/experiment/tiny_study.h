@@ -36,6 +36,7 @@ struct TinyOptions {
     std::string texts = {};                       // and of [texts]
     double minimumView = 0;                       // seconds
     std::string ordering = "scheme = \"thesis\""; // lines of [ordering]
+    std::string conditions = {};                  // further lines of each of [[conditions]]
 };
 
 // Simulated preference for member b of each condition.

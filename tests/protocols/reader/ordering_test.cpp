@@ -83,12 +83,13 @@ TEST(Ordering, ShippedStudiesNameTheirs) {
 
 TEST(Ordering, ReadsEveryKey) {
     const Ordering shuffled =
-        read("scheme = \"shuffle\"\nparticipants = 12\nrepeats = 2\nblocks = \"level\"\n"
+        read("scheme = \"shuffle\"\nparticipants = 12\nrepeats = 2\n"
              "apart = \"condition\"\npractice = [\"one\"]\ncatch = [\"three\"]\ncatchEvery = 2\n"
              "breakEvery = 4");
     EXPECT_EQ(shuffled.scheme, OrderScheme::shuffle);
     EXPECT_EQ(shuffled.repeats, 2);
-    EXPECT_EQ(shuffled.blocks, Likeness::level);
+    EXPECT_EQ(shuffled.blocks, std::nullopt);
+    EXPECT_EQ(read("blocks = \"level\"").blocks, Likeness::level);
     EXPECT_EQ(shuffled.apart, Likeness::condition);
     EXPECT_THAT(shuffled.practice, ElementsAre("one"));
     EXPECT_THAT(shuffled.catches, ElementsAre("three"));
@@ -117,7 +118,7 @@ const OrderingMistake mistakes[] = {
      "\"practice\" or \"catch\", found \"on\"; did you mean \"one\"?"},
     {"PracticeAndCatch", "practice = [\"one\"]\ncatch = [\"two\", \"one\"]\ncatchEvery = 1",
      ":28:17: ordering.catch[2]: expected the id of a condition that is not yet named under "
-     "\"practice\" or \"catch\", found \"one\"; there are: \"two\", \"three\", \"four\", \"five\""},
+     "\"practice\" or \"catch\", found \"one\"; one of: three, four, five"},
     {"NothingLeft", "practice = [\"one\", \"two\", \"three\", \"four\", \"five\"]",
      ":27:12: ordering.practice: expected a condition that is left for main trials, found none; "
      "add one, or name fewer here"},
