@@ -111,8 +111,8 @@ class Shuffle {
         return labelOf(conditionOf(protocol_, condition), *protocol_.ordering.apart);
     }
 
-    // After `chosen`, m conditions are left. They have an order if no label is more than (m + 1) /
-    // 2 of them, and that of the chosen one, which must not come first, no more than m / 2.
+    // Conditions have an order if no label is more than half of them, rounded up. That of the
+    // chosen one, which must not come first then, is never too many if this held before.
     bool leavesAnOrder(const std::vector<int>& left, std::size_t chosen) const {
         const std::string& taken = label(left[chosen]);
         if (taken == last_)
@@ -121,10 +121,8 @@ class Shuffle {
         for (const int condition : left)
             ++counts[label(condition)];
         --counts[taken];
-        const std::size_t rest = left.size() - 1;
-        return std::all_of(counts.begin(), counts.end(), [&](const auto& count) {
-            return 2 * count.second <= rest + (count.first == taken ? 0 : 1);
-        });
+        return std::all_of(counts.begin(), counts.end(),
+                           [&](const auto& count) { return 2 * count.second <= left.size(); });
     }
 
     const Protocol& protocol_;
