@@ -119,8 +119,10 @@ LatinSquare squareOf(OrderScheme scheme, int conditions, std::uint64_t seed, int
 LatinSquare exchangesOf(int roles) { return williamsSquare(roles); }
 
 std::pair<int, int> crossed(int number, int m, int n) {
-    const int run = std::lcm(m, n); // after which the same pairs would come again
-    return {number % m, (number + number / run % (m * n / run)) % n};
+    // After the least common multiple of both, the same pairs would come again.
+    const int shared = std::gcd(m, n);
+    const int rounds = number / (m * (n / shared));
+    return {number % m, (number + rounds % shared) % n};
 }
 
 Assignment assign(OrderScheme scheme, int conditions, int exchanges, int slot, int besides) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <iterator>
 #include <set>
 
@@ -97,6 +98,7 @@ class Shuffle {
             for (std::size_t i = 0; i < left.size(); ++i)
                 if (leavesAnOrder(left, i))
                     possible.push_back(i);
+            assert(!possible.empty());
             const std::size_t chosen =
                 possible[random_.below(static_cast<std::uint32_t>(possible.size()))];
             last_ = label(left[chosen]);

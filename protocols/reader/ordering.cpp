@@ -46,6 +46,7 @@ std::vector<std::string> take(TomlTable& table, std::string_view key,
                                      [&](const ConditionLabels& one) { return one.id == id.text; });
         if (at == left.end()) {
             std::vector<std::string> known;
+            known.reserve(left.size());
             for (const ConditionLabels& one : left)
                 known.push_back(one.id);
             throw Error(id.place,
