@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -61,13 +62,19 @@ void Display::warmUp(const gl::Picture& picture) {
                                 "window, or a smaller image size in the protocol",
                                 picture.width(), picture.height(), window_.width(),
                                 window_.height()));
-    draw(&picture);
+    draw(std::array{centred(picture)}, grey_);
     window_.finish();
     window_.check();
 }
 
 double Display::show(const gl::Picture* picture) {
-    draw(picture);
+    if (!picture)
+        return show({}, grey_);
+    return show(std::array{centred(*picture)}, grey_);
+}
+
+double Display::show(std::span<const Placed> pictures, int grey) {
+    draw(pictures, grey);
     if (paced_) {
         window_.finish();
         awaitTick();
@@ -76,10 +83,15 @@ double Display::show(const gl::Picture* picture) {
     return window_.now();
 }
 
-void Display::draw(const gl::Picture* picture) {
-    window_.clear(grey_);
-    if (picture)
-        window_.draw(*picture);
+void Display::draw(std::span<const Placed> pictures, int grey) {
+    window_.clear(grey);
+    for (const Placed& placed : pictures)
+        window_.draw(*placed.picture, placed.x, placed.y);
+}
+
+Placed Display::centred(const gl::Picture& picture) const {
+    return {&picture, (window_.width() - picture.width()) / 2,
+            (window_.height() - picture.height()) / 2};
 }
 
 // The next whole multiple of 1/60 s on the window's clock.

@@ -1,5 +1,6 @@
 #include "experiment/observer.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -15,9 +16,16 @@ constexpr double keyDown = 0.08;  // seconds for which a key is held
 
 } // namespace
 
+std::string Upcoming::role(const std::string& image) const {
+    if (image != "1" && image != "2")
+        return image;
+    return (image == "1") == reversed ? "b" : "a";
+}
+
 SimulatedObserver::SimulatedObserver(const Protocol& protocol, std::uint64_t seed,
                                      const std::string& participant)
-    : protocol_(protocol), seed_(seed), random_(seed, "observer/" + participant) {}
+    : protocol_(protocol), phases_(phasesOf(protocol.trial)), seed_(seed),
+      random_(seed, "observer/" + participant) {}
 
 Refresh SimulatedObserver::refresh() const {
     return {refreshHz, "none", "simulated: a clock without a display"};
@@ -42,23 +50,64 @@ void SimulatedObserver::prepare(const Upcoming& trial) {
     chooseSecond_ = std::clamp(preferSecond + protocol_.simulation.positionBias, 0.0, 1.0);
 }
 
-double SimulatedObserver::show(Screen screen) {
-    visible_ = screen;
+double SimulatedObserver::show(const TrialMachine& trial) {
+    trial_ = &trial;
     clock_ = (std::floor(clock_ * refreshHz + 1e-6) + 1) / refreshHz;
     return clock_;
 }
 
 std::vector<Event> SimulatedObserver::events(bool wait) {
-    if (!wait)
+    if (!wait || !trial_)
         return {};
-    if (visible_ == Screen::first || visible_ == Screen::second)
-        return press(gl::Key::space, std::max(protocol_.trial.minimumView + quickest,
-                                              draw(protocol_.simulation.view)));
-    if (visible_ == Screen::question) {
-        const double after = draw(protocol_.simulation.decision);
-        return press(random_.uniform() < chooseSecond_ ? gl::Key::two : gl::Key::one, after);
+    if (const Form* form = trial_->form())
+        return answer(*form);
+    const Phase& phase = phases_[static_cast<std::size_t>(trial_->screen())];
+    if (phase.images.empty())
+        return press(gl::Key::space, draw(protocol_.simulation.decision));
+    return press(gl::Key::space,
+                 std::max(phase.atLeast + quickest, draw(protocol_.simulation.view)));
+}
+
+// Which image of a pair looks better is the model's; all other questions are answered at random.
+std::vector<Event> SimulatedObserver::answer(const Form& form) {
+    const double after = draw(protocol_.simulation.decision);
+    if (form.answered(static_cast<std::size_t>(form.focus())))
+        return press(gl::Key::enter, after); // to the next, or the end
+    const Question& question = form.questions()[static_cast<std::size_t>(form.focus())];
+    const auto digit = [](int number) {
+        return static_cast<gl::Key>(static_cast<int>(gl::Key::zero) + number % 10);
+    };
+    switch (question.kind) {
+    case Question::Kind::choice:
+        if (question.images && question.options.size() == 2 && question.unsure.empty())
+            return press(random_.uniform() < chooseSecond_ ? gl::Key::two : gl::Key::one, after);
+        [[fallthrough]];
+    case Question::Kind::scale:
+    case Question::Kind::rank:
+        return press(digit(1 + static_cast<int>(random_.below(
+                                   static_cast<std::uint32_t>(form.optionsOf(question))))),
+                     after);
+    case Question::Kind::slider:
+        return press(digit(static_cast<int>(random_.below(10))), after);
+    case Question::Kind::number:
+    case Question::Kind::text:
+        break;
     }
-    return press(gl::Key::space, draw(protocol_.simulation.decision));
+    return type(question, after);
+}
+
+// A number in the middle of the range, or a letter.
+std::vector<Event> SimulatedObserver::type(const Question& question, double after) {
+    clock_ += after;
+    std::vector<Event> events;
+    const bool number = question.kind == Question::Kind::number;
+    for (const char letter :
+         number ? fmt::format("{:.0f}", (question.least + question.most) / 2) : "x") {
+        Event event{Event::Kind::text, clock_};
+        event.symbol = static_cast<std::uint32_t>(letter);
+        events.push_back(event);
+    }
+    return events;
 }
 
 std::vector<Event> SimulatedObserver::press(gl::Key key, double after) {

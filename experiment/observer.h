@@ -17,6 +17,9 @@ struct Upcoming {
     int index = 0, count = 0; // which of how many, from 1
     int condition = 0;        // as the protocol counts them, from 0
     bool reversed = false;    // member b comes first
+
+    // The role of an image that a phase names by its place in the order, or by its role.
+    std::string role(const std::string& image) const;
 };
 
 // One who is shown things and answers: a person before a display (Presenter), or a stated model of
@@ -30,8 +33,8 @@ class Observer {
 
     virtual bool instruct() = 0; // false when the person leaves instead of beginning
     virtual void prepare(const Upcoming& trial) = 0;
-    // Shows a screen of the prepared trial; the time at which it came on.
-    virtual double show(Screen screen) = 0;
+    // Shows the screen that the prepared trial wants; the time at which it came on.
+    virtual double show(const TrialMachine& trial) = 0;
     // What the person has done since; with `wait`, sleeps until there is something.
     virtual std::vector<Event> events(bool wait) = 0;
     virtual void thank() = 0;
@@ -49,19 +52,22 @@ class SimulatedObserver : public Observer {
     void describe(nlohmann::ordered_json& sidecar) const override;
     bool instruct() override { return true; }
     void prepare(const Upcoming& trial) override;
-    double show(Screen screen) override; // at the next refresh of a 60 Hz clock
+    double show(const TrialMachine& trial) override; // at the next refresh of a 60 Hz clock
     std::vector<Event> events(bool wait) override;
     void thank() override {}
 
   private:
     std::vector<Event> press(gl::Key key, double after);
+    std::vector<Event> answer(const Form& form);
+    std::vector<Event> type(const Question& question, double after);
     double draw(const ExGaussian& time);
 
     const Protocol& protocol_;
+    const std::vector<Phase> phases_;
     std::uint64_t seed_;
     Random random_;
     double chooseSecond_ = 0.5;
-    Screen visible_ = Screen::start;
+    const TrialMachine* trial_ = nullptr; // what it shows
     double clock_ = 0;
 };
 

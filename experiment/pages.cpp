@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <string_view>
 #include <vector>
 
@@ -30,8 +31,7 @@ Page loadingPage(const Texts& texts, int loaded, int images) {
 Page idPage(const Texts& texts, const std::string& typed, const std::string& objection) {
     Page page;
     page.text = texts.id;
-    page.hasField = true;
-    page.field = typed;
+    page.field = Page::Field{typed};
     page.note = objection.empty() ? texts.idNote : objection;
     return page;
 }
@@ -43,18 +43,85 @@ Page instructionsPage(const Texts& texts) {
     return page;
 }
 
-Page startPage(const Texts& texts, int pair, int pairs) {
+Page textPage(const Texts& texts, const Phase& phase, int pair, int pairs) {
     Page page;
-    page.heading = replaced(replaced(texts.progress, "{pair}", pair), "{pairs}", pairs);
-    page.text = texts.start;
-    page.options = {{texts.space, ""}};
+    if (phase.progress)
+        page.heading = replaced(replaced(texts.progress, "{pair}", pair), "{pairs}", pairs);
+    page.text = texts.at(phase.text);
+    if (phase.key)
+        page.options = {{texts.space, ""}};
     return page;
 }
 
-Page questionPage(const Texts& texts) {
+namespace {
+
+std::string wordsOf(const Texts& texts, const std::string& key) {
+    return key.empty() ? "" : texts.at(key);
+}
+
+// A key for each option, from 1; a scale's are those of its numbers where digits can say them.
+std::vector<Page::Option> optionsOf(const Texts& texts, const Form& form, std::size_t index) {
+    const Question& question = form.questions()[index];
+    const Form::Entry& entry = form.entries()[index];
+    std::vector<Page::Option> options;
+    for (int i = 1; i <= form.optionsOf(question); ++i) {
+        Page::Option option{fmt::format("{}", i % 10), "", entry.option == i};
+        const auto rank = std::find(entry.ranks.begin(), entry.ranks.end(), i);
+        if (question.kind == Question::Kind::rank && rank != entry.ranks.end()) {
+            option.label = fmt::format("{}.", rank - entry.ranks.begin() + 1);
+            option.chosen = true;
+        } else if (question.kind != Question::Kind::rank) {
+            const auto at = static_cast<std::size_t>(i - 1);
+            option.label =
+                texts.at(at < question.options.size() ? question.options[at] : question.unsure);
+        }
+        options.push_back(std::move(option));
+    }
+    return options;
+}
+
+Page::Part partOf(const Texts& texts, const Form& form, std::size_t index) {
+    const Question& question = form.questions()[index];
+    const Form::Entry& entry = form.entries()[index];
+    Page::Part part;
+    part.label = wordsOf(texts, question.text);
+    part.focus = form.focus() == static_cast<int>(index);
+    switch (question.kind) {
+    case Question::Kind::number:
+    case Question::Kind::text:
+        part.field = Page::Field{entry.typed, part.focus};
+        break;
+    case Question::Kind::slider:
+        part.slider =
+            Page::Slider{{}, wordsOf(texts, question.low), wordsOf(texts, question.high), {}};
+        if (entry.value) {
+            part.slider->share = (*entry.value - question.least) / (question.most - question.least);
+            part.slider->value = fmt::format("{:g}", *entry.value);
+        }
+        break;
+    case Question::Kind::choice:
+    case Question::Kind::scale:
+    case Question::Kind::rank:
+        part.options = optionsOf(texts, form, index);
+    }
+    return part;
+}
+
+} // namespace
+
+Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures) {
     Page page;
-    page.heading = texts.question;
-    page.options = {{"1", texts.first}, {"2", texts.second}};
+    page.pictures = pictures;
+    if (form.alone()) {
+        page.heading = wordsOf(texts, form.questions().front().text);
+        page.options = optionsOf(texts, form, 0);
+        return page;
+    }
+    for (std::size_t i = 0; i < form.questions().size(); ++i)
+        page.parts.push_back(partOf(texts, form, i));
+    if (page.parts.size() > 1)
+        page.note = texts.between;
+    page.options = {{texts.enter, texts.done}};
     return page;
 }
 
@@ -80,8 +147,11 @@ Page unfocused(Page page, const Texts& texts) {
 
 void checkShowable(const Texts& texts) {
     constexpr std::size_t mostNamed = 8;
-    for (const TextKey& key : textKeys()) {
-        const std::vector<std::string> missing = unshowable(texts.*key.text);
+    std::map<std::string, std::string, std::less<>> all = texts.own;
+    for (const TextKey& key : textKeys())
+        all[std::string(key.name)] = texts.*key.text;
+    for (const auto& [key, text] : all) {
+        const std::vector<std::string> missing = unshowable(text);
         if (missing.empty())
             continue;
         std::string names;
@@ -89,8 +159,8 @@ void checkShowable(const Texts& texts) {
             names += (i == 0 ? "" : ", ") + missing[i];
         if (missing.size() > mostNamed)
             names += fmt::format(" and {} more", missing.size() - mostNamed);
-        const auto place = texts.places.find(key.name);
-        throw Error(place == texts.places.end() ? Place{"", 0, 0, fmt::format("texts.{}", key.name)}
+        const auto place = texts.places.find(key);
+        throw Error(place == texts.places.end() ? Place{"", 0, 0, fmt::format("texts.{}", key)}
                                                 : place->second,
                     fmt::format("no installed font can show {}; install one that can (such as the "
                                 "packages fonts-noto-core and fonts-noto-cjk), or write it "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiment/form.h"
 #include "experiment/text.h"
 #include "protocols/reader/protocol.h"
 
@@ -13,8 +14,10 @@ namespace obscura {
 Page loadingPage(const Texts& texts, int loaded, int images);
 Page idPage(const Texts& texts, const std::string& typed, const std::string& objection);
 Page instructionsPage(const Texts& texts);
-Page startPage(const Texts& texts, int pair, int pairs);
-Page questionPage(const Texts& texts);
+// Of a phase of text; `pair` of `pairs` stands above it where the phase shows progress.
+Page textPage(const Texts& texts, const Phase& phase, int pair, int pairs);
+// Of a phase that asks, as far as it is answered, with room for the images that it shows.
+Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures);
 Page leavePage(const Texts& texts);
 Page thanksPage(const Texts& texts);
 

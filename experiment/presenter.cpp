@@ -47,12 +47,18 @@ Curtain curtain(const Study& study) {
 }
 
 Presenter::Presenter(Display& display, const Study& study, std::string warning)
-    : display_(display), study_(study), texts_(study.protocol.texts), warning_(std::move(warning)) {
+    : display_(display), study_(study), texts_(study.protocol.texts), warning_(std::move(warning)),
+      phases_(phasesOf(study.protocol.trial)), prepared_(phases_.size()) {
     checkFits();
-    question_ = sheet(questionPage(texts_), "");
     leave_ = sheet(leavePage(texts_), "asked whether to end");
     loadImages();
-    display_.warmUp(question_.picture);
+    for (std::size_t i = 0; i < phases_.size(); ++i)
+        if (!phases_[i].questions.empty()) {
+            prepared_[i].sheet = formSheet(Form(phases_[i].questions, 2), phases_[i]);
+            display_.warmUp(prepared_[i].sheet->picture);
+        } else if (!phases_[i].text.empty() && !phases_[i].progress) {
+            prepared_[i].sheet = sheet(textPage(texts_, phases_[i], 1, 1), "");
+        }
     display_.window().poll(); // what was pressed meanwhile was meant for nobody
 }
 
@@ -61,10 +67,18 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
 void Presenter::checkFits() const {
     const int pairs = pairCount(study_);
     const gl::Window& window = display_.window();
-    for (Page page : {loadingPage(texts_, 2 * pairs, 2 * pairs),
-                      idPage(texts_, "", texts_.idMalformed), idPage(texts_, "", texts_.idTaken),
-                      instructionsPage(texts_), startPage(texts_, pairs, pairs),
-                      questionPage(texts_), leavePage(texts_), thanksPage(texts_)}) {
+    std::vector<Page> pages = {loadingPage(texts_, 2 * pairs, 2 * pairs),
+                               idPage(texts_, "", texts_.idMalformed),
+                               idPage(texts_, "", texts_.idTaken),
+                               instructionsPage(texts_),
+                               leavePage(texts_),
+                               thanksPage(texts_)};
+    for (const Phase& phase : phases_)
+        if (!phase.questions.empty())
+            pages.push_back(formPage(texts_, Form(phase.questions, 2), room(phase)));
+        else if (!phase.text.empty())
+            pages.push_back(textPage(texts_, phase, pairs, pairs));
+    for (Page& page : pages) {
         page.warning = warning_;
         drawPage(unfocused(page, texts_), window.width(), window.height(),
                  study_.protocol.trial.grey);
@@ -106,9 +120,33 @@ Presenter::Sheet Presenter::sheet(Page page, std::string title) const {
 
 Presenter::Sheet Presenter::drawn(Page page, std::string title) const {
     const gl::Window& window = display_.window();
-    auto [image, options] =
+    auto [image, options, places] =
         drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
-    return {std::move(page), std::move(title), upload(image), std::move(options)};
+    return {std::move(page),    std::move(title),  upload(image),
+            std::move(options), std::move(places), {}};
+}
+
+Presenter::Sheet Presenter::formSheet(const Form& form, const Phase& phase) const {
+    Sheet result = sheet(formPage(texts_, form, room(phase)), "");
+    result.images = phase.images;
+    return result;
+}
+
+// What a page of questions leaves free for the images beside it.
+Page::Pictures Presenter::room(const Phase& phase) const {
+    return {static_cast<int>(phase.images.size()), study_.manifest.width, study_.manifest.height};
+}
+
+const gl::Picture& Presenter::picture(const std::string& image) const {
+    const auto& pair = pairs_.at(static_cast<std::size_t>(trial_.condition));
+    return pair[trial_.role(image) == "b" ? 1 : 0];
+}
+
+std::vector<Placed> Presenter::placedOn(const Sheet& sheet) const {
+    std::vector<Placed> placed = {{&sheet.picture, 0, 0}};
+    for (std::size_t i = 0; i < sheet.images.size(); ++i)
+        placed.push_back({&picture(sheet.images[i]), sheet.places[i].x, sheet.places[i].y});
+    return placed;
 }
 
 double Presenter::showSheet(const Sheet& page) {
@@ -116,17 +154,36 @@ double Presenter::showSheet(const Sheet& page) {
     title_ = page.title;
     display_.window().showCursor(true);
     focused_ = display_.window().focused();
-    if (!focused_)
+    if (!focused_) {
         unfocused_ = drawn(unfocused(page.page, texts_), page.title);
-    return display_.show(focused_ ? &page.picture : &unfocused_.picture);
+        unfocused_.images = page.images;
+    }
+    return display_.show(placedOn(focused_ ? page : unfocused_), study_.protocol.trial.grey);
 }
 
-double Presenter::showImage(const gl::Picture* image, std::string title) {
+double Presenter::showImages(std::span<const Placed> images, int grey) {
     sheet_ = nullptr;
-    image_ = image;
-    title_ = std::move(title);
+    images_ = images;
+    grey_ = grey;
     display_.window().showCursor(false);
-    return display_.show(image);
+    return display_.show(images_, grey_);
+}
+
+// Images beside each other in the middle of the screen, or all in the same place where they are
+// shown in turn.
+std::vector<Placed> Presenter::placed(const Phase& phase) const {
+    const gl::Window& window = display_.window();
+    Page::Pictures pictures = room(phase);
+    if (phase.alternate > 0)
+        pictures.count = 1;
+    const std::vector<Box> boxes = gridOf(pictures, window.width(), 0);
+    const int top = (window.height() - boxes.back().y - boxes.back().height) / 2;
+    std::vector<Placed> result;
+    for (std::size_t i = 0; i < phase.images.size(); ++i) {
+        const Box& box = boxes[std::min(i, boxes.size() - 1)];
+        result.push_back({&picture(phase.images[i]), box.x, box.y + top});
+    }
+    return result;
 }
 
 void Presenter::announce() {
@@ -149,7 +206,7 @@ std::vector<gl::Input> Presenter::inputs() {
     if (uncovered && sheet_)
         showSheet(*sheet_);
     else if (uncovered)
-        display_.show(image_);
+        display_.show(images_, grey_);
     return inputs;
 }
 
@@ -172,25 +229,32 @@ std::vector<Event> Presenter::events(bool wait) {
             events.push_back({Event::Kind::release, input.time, gl::Key::escape});
             break;
         case Kind::click:
-            if (const int option = optionAt(input.x, input.y))
-                events.push_back({Event::Kind::option, input.time, {}, option});
+            if (const Event event = clicked(input); event.option > 0)
+                events.push_back(event);
+            break;
+        case Kind::text:
+            events.push_back({Event::Kind::text, input.time, {}, 0, 0, input.symbol});
             break;
         case Kind::focusGained:
         case Kind::exposed:
-        case Kind::text:
             break;
         }
     return events;
 }
 
-// Of the page on the screen, from 1; 0 when there is none at that place.
-int Presenter::optionAt(int x, int y) const {
+// Of the page on the screen, which of its options; 0 when there is none at that place.
+Event Presenter::clicked(const gl::Input& input) const {
+    Event event{Event::Kind::option, input.time};
     if (!sheet_)
-        return 0;
+        return event;
     const auto& boxes = focused_ ? sheet_->options : unfocused_.options;
     const auto found = std::find_if(boxes.begin(), boxes.end(),
-                                    [&](const Box& box) { return box.contains(x, y); });
-    return found == boxes.end() ? 0 : static_cast<int>(found - boxes.begin()) + 1;
+                                    [&](const Box& box) { return box.contains(input.x, input.y); });
+    if (found == boxes.end())
+        return event;
+    event.option = static_cast<int>(found - boxes.begin()) + 1;
+    event.share = (input.x - found->x + 0.5) / found->width;
+    return event;
 }
 
 // For pages outside a trial: sleeps until there are presses or clicks.
@@ -272,30 +336,43 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
 }
 
 void Presenter::prepare(const Upcoming& trial) {
-    const auto& pair = pairs_.at(static_cast<std::size_t>(trial.condition));
-    first_ = &pair[trial.reversed ? 1 : 0];
-    second_ = &pair[trial.reversed ? 0 : 1];
-    pair_ = fmt::format("pair {} of {}", trial.index, trial.count);
-    start_ = sheet(startPage(texts_, trial.index, trial.count), pair_ + ", start");
-    question_.title = pair_ + ", question";
+    trial_ = trial;
+    for (std::size_t i = 0; i < phases_.size(); ++i) {
+        const Phase& phase = phases_[i];
+        Prepared& prepared = prepared_[i];
+        prepared.title =
+            phase.grey >= 0
+                ? "" // nothing is done but show grey
+                : fmt::format("pair {} of {}, {}{}", trial.index, trial.count, phase.name,
+                              phase.questions.empty() && phase.text.empty() ? " image" : "");
+        if (phase.progress && !phase.text.empty())
+            prepared.sheet = sheet(textPage(texts_, phase, trial.index, trial.count), "");
+        if (prepared.sheet)
+            prepared.sheet->title = prepared.title;
+        else if (!phase.images.empty())
+            prepared.images = placed(phase);
+    }
 }
 
-double Presenter::show(Screen screen) {
-    switch (screen) {
-    case Screen::start:
-        return showSheet(start_);
-    case Screen::first:
-        return showImage(first_, pair_ + ", first image");
-    case Screen::second:
-        return showImage(second_, pair_ + ", second image");
-    case Screen::question:
-        return showSheet(question_);
-    case Screen::leave:
+double Presenter::show(const TrialMachine& trial) {
+    if (trial.screen() == leaveScreen)
         return showSheet(leave_);
-    case Screen::mask:
-        break;
+    const auto index = static_cast<std::size_t>(trial.screen());
+    const Phase& phase = phases_[index];
+    const Prepared& prepared = prepared_[index];
+    if (const Form* form = trial.form(); form && form->touched()) {
+        answered_ = formSheet(*form, phase);
+        answered_.title = prepared.title;
+        return showSheet(answered_);
     }
-    return showImage(nullptr, "");
+    if (prepared.sheet)
+        return showSheet(*prepared.sheet);
+    if (!prepared.title.empty())
+        title_ = prepared.title;
+    std::span<const Placed> images = prepared.images;
+    if (phase.alternate > 0)
+        images = images.subspan(static_cast<std::size_t>(trial.alternation()), 1);
+    return showImages(images, phase.grey >= 0 ? phase.grey : study_.protocol.trial.grey);
 }
 
 } // namespace obscura

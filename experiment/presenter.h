@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,7 @@ class Presenter : public Observer {
     void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
-    double show(Screen screen) override;
+    double show(const TrialMachine& trial) override;
     std::vector<Event> events(bool wait) override;
     void thank() override;
 
@@ -48,6 +49,15 @@ class Presenter : public Observer {
         std::string title; // of the window
         gl::Picture picture;
         std::vector<Box> options;
+        std::vector<Box> places;         // of images on it,
+        std::vector<std::string> images; // and which: by place or role
+    };
+
+    // What a phase shows, so that showing it is nothing but drawing.
+    struct Prepared {
+        std::optional<Sheet> sheet; // of a page of text, and of questions not yet answered
+        std::vector<Placed> images;
+        std::string title; // of the window; "" leaves it as it is
     };
 
     Sheet sheet(Page page, std::string title) const; // with the warning above it
@@ -55,10 +65,15 @@ class Presenter : public Observer {
     void checkFits() const;
     void loadImages();
     double showSheet(const Sheet& sheet);
-    double showImage(const gl::Picture* image, std::string title);
+    double showImages(std::span<const Placed> images, int grey);
+    std::vector<Placed> placedOn(const Sheet& sheet) const;
+    const gl::Picture& picture(const std::string& image) const;
+    std::vector<Placed> placed(const Phase& phase) const;
+    Sheet formSheet(const Form& form, const Phase& phase) const;
+    Page::Pictures room(const Phase& phase) const;
     void announce();
     std::vector<gl::Input> inputs();
-    int optionAt(int x, int y) const;
+    Event clicked(const gl::Input& input) const;
     std::vector<Event> answers();
     void turnTo(const Sheet& page);
     bool read(const Sheet& page);
@@ -68,15 +83,17 @@ class Presenter : public Observer {
     const Study& study_;
     const Texts& texts_;
     std::string warning_;
+    std::vector<Phase> phases_;
     std::vector<std::array<gl::Picture, 2>> pairs_; // by condition: members a and b
-    Sheet start_, question_, leave_;
-    std::string pair_; // the prepared trial, for titles
-    const gl::Picture* first_ = nullptr;
-    const gl::Picture* second_ = nullptr;
+    Sheet leave_;
+    std::vector<Prepared> prepared_; // by phase
+    Sheet answered_;                 // a page of questions as far as it is answered
+    Upcoming trial_;                 // the prepared one
 
-    // What is on the screen: a page, or else an image or, without one, grey.
+    // What is on the screen: a page, or else images or, without one, grey.
     const Sheet* sheet_ = nullptr;
-    const gl::Picture* image_ = nullptr;
+    std::span<const Placed> images_;
+    int grey_ = 0;
     bool focused_ = true;   // as the page on the screen has it; if not, the screen shows
     Sheet unfocused_;       // this in its place
     std::string title_;     // what is on the screen, and

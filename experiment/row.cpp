@@ -50,27 +50,30 @@ void addCondition(Response& row, const PairRecord& pair, bool reversed) {
     row.firstIs = reversed ? 'b' : 'a';
 }
 
-void addTiming(Response& row, const TrialRecord& trial, const Refresh& refresh) {
-    row.onset1Ms = 1000 * trial.onset1;
-    row.view1Ms = 1000 * trial.view1;
-    row.maskFramesPlanned = trial.maskFramesPlanned;
-    row.maskFramesShown = trial.maskFramesShown;
-    row.maskMs = 1000 * trial.mask;
-    row.onset2Ms = 1000 * trial.onset2;
-    row.view2Ms = 1000 * trial.view2;
-    row.questionOnsetMs = 1000 * trial.questionOnset;
-    row.decisionRtMs = 1000 * trial.decision;
+void addTiming(Response& row, const TrialRecord& trial, const PairPhases& pair,
+               const Refresh& refresh) {
+    const PhaseRecord &first = trial.phases[pair.first], &mask = trial.phases[pair.mask],
+                      &second = trial.phases[pair.second], &question = trial.phases[pair.question];
+    row.onset1Ms = 1000 * first.onset;
+    row.view1Ms = 1000 * first.view;
+    row.maskFramesPlanned = mask.framesPlanned;
+    row.maskFramesShown = mask.framesShown;
+    row.maskMs = 1000 * mask.view;
+    row.onset2Ms = 1000 * second.onset;
+    row.view2Ms = 1000 * second.view;
+    row.questionOnsetMs = 1000 * question.onset;
+    row.decisionRtMs = 1000 * trial.answers[pair.answer].seconds;
     row.refreshHz = refresh.hz;
-    row.missedFrames = trial.missedFrames;
+    row.missedFrames = mask.missedFrames;
     row.timestampSource = refresh.source;
+    row.earlyPressesInMask = mask.earlyPresses;
 }
 
-void addAnswer(Response& row, const TrialRecord& trial) {
-    row.chosenPosition = trial.chosen;
-    row.choseB = (trial.chosen == 2) == (row.firstIs == "a");
+void addAnswer(Response& row, const TrialRecord& trial, const PairPhases& pair) {
+    row.chosenPosition = trial.answers[pair.answer].value == "2" ? 2 : 1;
+    row.choseB = (row.chosenPosition == 2) == (row.firstIs == "a");
     row.chosenTechnique = row.choseB ? row.techniqueB : row.techniqueA;
     row.interrupted = trial.interrupted;
-    row.earlyPressesInMask = trial.earlyPresses;
 }
 
 void addProvenance(Response& row, const Protocol& protocol) {
@@ -83,12 +86,34 @@ void addProvenance(Response& row, const Protocol& protocol) {
 
 } // namespace
 
+std::optional<PairPhases> pairPhasesOf(const std::vector<Phase>& phases) {
+    PairPhases pair;
+    const auto shows = [&](std::size_t i, const char* image) {
+        return i < phases.size() && phases[i].images == std::vector<std::string>{image} &&
+               phases[i].questions.empty();
+    };
+    while (pair.first < phases.size() && !shows(pair.first, "1"))
+        ++pair.first;
+    pair.mask = pair.first + 1;
+    pair.second = pair.first + 2;
+    if (!shows(pair.second, "2") || phases[pair.mask].grey < 0 || !phases[pair.mask].locked())
+        return std::nullopt;
+    for (pair.question = 0; pair.question < phases.size(); ++pair.question)
+        for (const Question& question : phases[pair.question].questions) {
+            if (question.images && question.options.size() == 2 && question.unsure.empty() &&
+                !question.optional && !phases[pair.question].counted())
+                return pair;
+            ++pair.answer;
+        }
+    return std::nullopt;
+}
+
 Response makeRow(const Context& context, const Upcoming& trial, const PlannedTrial& planned,
-                 const TrialRecord& record) {
+                 const TrialRecord& record, const PairPhases& pair) {
     Response row = identity(context, trial, planned);
     addCondition(row, context.study.pair(trial.condition), trial.reversed);
-    addTiming(row, record, context.refresh);
-    addAnswer(row, record);
+    addTiming(row, record, pair, context.refresh);
+    addAnswer(row, record, pair);
     addProvenance(row, context.study.protocol);
     return row;
 }

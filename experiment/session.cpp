@@ -31,7 +31,7 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
             machine.journalled();
             break;
         case TrialMachine::Next::present: {
-            const double time = observer.show(machine.screen());
+            const double time = observer.show(machine);
             for (const Event& event : observer.events(false))
                 machine.handle(event);
             machine.shown(time);
@@ -41,7 +41,7 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
             for (const Event& event : observer.events(true))
                 machine.handle(event);
             break;
-        case TrialMachine::Next::answered:
+        case TrialMachine::Next::finished:
             return true;
         case TrialMachine::Next::left:
             return false;
@@ -53,16 +53,34 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
 // is such a page, a break takes no time.
 bool takeBreak(Observer&) { return true; }
 
-// What an order may depend on. The answer "choice" is the member chosen.
-PastTrial remember(const PlannedTrial& planned, const Response& row) {
-    return {planned, {{"choice", row.choseB ? "b" : "a"}}, row.interrupted};
+// What an order may depend on: each answer as it was given, but of images the role in place of the
+// number.
+PastTrial remember(const PlannedTrial& planned, const std::vector<Phase>& phases,
+                   const Upcoming& trial, const TrialRecord& record) {
+    PastTrial past{planned, {}, record.interrupted};
+    for (const Answer& answer : record.answers)
+        past.answers[answer.name] = answer.value;
+    for (const Phase& phase : phases)
+        for (const Question& question : phase.questions)
+            if (question.images)
+                past.answers[question.name] = trial.role(past.answers[question.name]);
+    return past;
+}
+
+int hastyPressesOf(const TrialRecord& record) {
+    int sum = 0;
+    for (const PhaseRecord& phase : record.phases)
+        sum += phase.hastyPresses;
+    return sum;
 }
 
 // All trials, or those until the person left: true when all were answered. Adds to the intervals of
-// the masks.
+// counted phases.
 bool playAll(const Context& context, Observer& observer, Recorder& recorder,
-             std::vector<double>& maskIntervals) {
+             std::vector<double>& intervals) {
     const Protocol& protocol = context.study.protocol;
+    const std::vector<Phase> phases = phasesOf(protocol.trial);
+    const std::optional<PairPhases> pair = pairPhasesOf(phases);
     const int count = longest(protocol);
     std::vector<PastTrial> history;
     for (int index = 1; const auto planned = next(protocol, context.assignment.slot, history);) {
@@ -73,18 +91,18 @@ bool playAll(const Context& context, Observer& observer, Recorder& recorder,
             continue;
         }
         const Upcoming trial{index++, count, planned->condition, planned->reversed()};
-        TrialMachine machine(protocol.trial, context.refresh.hz);
+        TrialMachine machine(phases, 2, context.refresh.hz);
         observer.prepare(trial);
         if (!play(machine, observer, recorder, trial.index,
                   context.study.pair(trial.condition).condition))
             return false;
-        const Response row = makeRow(context, trial, *planned, machine.record());
-        recorder.record(row);
-        history.push_back(remember(*planned, row));
-        if (const int hasty = machine.record().hastyPresses)
+        if (pair)
+            recorder.record(makeRow(context, trial, *planned, machine.record(), *pair));
+        history.push_back(remember(*planned, phases, trial, machine.record()));
+        if (const int hasty = hastyPressesOf(machine.record()))
             recorder.hastyPresses(trial.index, hasty);
-        const auto& intervals = machine.record().maskIntervals;
-        maskIntervals.insert(maskIntervals.end(), intervals.begin(), intervals.end());
+        for (const PhaseRecord& phase : machine.record().phases)
+            intervals.insert(intervals.end(), phase.intervals.begin(), phase.intervals.end());
     }
     return true;
 }

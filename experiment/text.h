@@ -2,6 +2,7 @@
 
 #include "image/image.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,16 +12,39 @@ namespace obscura {
 // `text` are kept.
 struct Page {
     struct Option {
-        std::string key;   // drawn as a key cap: "1", "Space"
-        std::string label; // beside it
+        std::string key;     // drawn as a key cap: "1", "Space"
+        std::string label;   // beside it
+        bool chosen = false; // drawn the other way round, in a thick frame
+    };
+    struct Field {
+        std::string typed; // so far
+        bool focus = true; // shows a caret
+    };
+    struct Slider {
+        std::optional<double> share; // of its way from left to right, 0 ... 1; none: not yet set
+        std::string low, high;       // what stands at its ends
+        std::string value;           // what stands above its knob
+    };
+    // One question among others on a page: what it asks, and one of the three that answer it.
+    struct Part {
+        std::string label;
+        bool focus = false;
+        std::vector<Option> options;
+        std::optional<Field> field;
+        std::optional<Slider> slider;
+    };
+    // Room for images of one size, each with its number below.
+    struct Pictures {
+        int count = 0, width = 0, height = 0; // pixels
     };
 
     std::string warning; // a band across the top
+    Pictures pictures;
     std::string heading;
     std::string text;
-    bool hasField = false;
-    std::string field; // what has been typed so far
-    std::string note;  // small, below
+    std::optional<Field> field;
+    std::string note; // small, below
+    std::vector<Part> parts;
     std::vector<Option> options;
 };
 
@@ -33,9 +57,14 @@ struct Box {
 };
 
 struct DrawnPage {
-    Image8 image;             // RGB
-    std::vector<Box> options; // where they can be clicked
+    Image8 image;              // RGB
+    std::vector<Box> options;  // where one can click: options, fields, sliders, from the top
+    std::vector<Box> pictures; // where the images belong
 };
+
+// Where so many images of one size go, side by side, in as many rows as they need to fit into that
+// width; `below` is free under each row. From the top left corner of them all.
+std::vector<Box> gridOf(const Page::Pictures& pictures, int width, int below);
 
 // Sets a page on the study's grey, in near-black or near-white, whichever contrasts more. The type
 // is sized to be read at arm's length (a capital letter is about 1/50 of the screen's height) in

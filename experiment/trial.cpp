@@ -12,172 +12,233 @@ namespace {
 // Bridges et al. 2020 and PsychoPy: an interval above 1.2 refreshes is a missed one.
 constexpr double missedInterval = 1.2;
 
+// By how much, in refreshes, a stamp may lie before the blank that it stands for. More would take a
+// late stamp for a refresh that was not, and end a phase early.
+constexpr double stampTolerance = 0.25;
+
 } // namespace
 
 int optionOf(gl::Key key) {
-    switch (key) {
-    case gl::Key::one:
-    case gl::Key::keypadOne:
-    case gl::Key::left:
-        return 1;
-    case gl::Key::two:
-    case gl::Key::keypadTwo:
-    case gl::Key::right:
-        return 2;
-    default:
-        return 0;
-    }
+    if (key == gl::Key::left || key == gl::Key::right)
+        return key == gl::Key::left ? 1 : 2;
+    const int digit = digitOf(key);
+    return digit == 1 || digit == 2 ? digit : 0;
 }
 
-TrialMachine::TrialMachine(const Trial& timeline, double refreshHz)
-    : minimumView_(timeline.minimumView), refreshHz_(refreshHz) {
-    record_.maskFramesPlanned = maskRefreshes(timeline.mask, refreshHz);
+TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refreshHz)
+    : phases_(std::move(phases)), images_(images), refreshHz_(refreshHz) {
+    record_.phases.resize(phases_.size());
+    const auto shows = [](const Phase& phase) { return !phase.images.empty(); };
+    const auto first = std::find_if(phases_.begin(), phases_.end(), shows);
+    const auto last = std::find_if(phases_.rbegin(), phases_.rend(), shows);
+    firstImage_ = first == phases_.end() ? 0 : static_cast<Screen>(first - phases_.begin());
+    lastImage_ = static_cast<Screen>(phases_.rend() - last) - 1;
+    for (std::size_t i = 0; i < phases_.size(); ++i)
+        if (phases_[i].counted())
+            record_.phases[i].framesPlanned = phases_[i].frames > 0
+                                                  ? phases_[i].frames
+                                                  : maskRefreshes(phases_[i].seconds, refreshHz);
+    go(0);
 }
 
 TrialMachine::Next TrialMachine::next() const {
     if (left_)
         return Next::left;
-    if (record_.chosen)
-        return Next::answered;
-    if (screen_ == Screen::first && !journalled_)
+    if (screen_ == static_cast<Screen>(phases_.size()))
+        return Next::finished;
+    if (screen_ == firstImage_ && !journalled_)
         return Next::journal;
-    return pending_ || screen_ == Screen::mask ? Next::present : Next::wait;
+    return pending_ || counted(screen_) ? Next::present : Next::wait;
+}
+
+bool TrialMachine::counted(std::optional<Screen> screen) const {
+    return screen && *screen != leaveScreen && phase(*screen).counted();
+}
+
+bool TrialMachine::locked(std::optional<Screen> screen) const {
+    return screen && *screen != leaveScreen && phase(*screen).locked();
+}
+
+bool TrialMachine::exposing(Screen screen) const {
+    return screen >= firstImage_ && screen <= lastImage_;
+}
+
+int TrialMachine::alternation() const {
+    const Phase& current = phase(screen_);
+    const int each = maskRefreshes(current.alternate, refreshHz_);
+    const int shown = record_.phases[static_cast<std::size_t>(screen_)].framesShown;
+    return shown / each % static_cast<int>(current.images.size());
 }
 
 void TrialMachine::shown(double time) {
-    if (screen_ == Screen::mask || visible_ == Screen::mask)
-        countRefresh(time);
+    if (counted(visible_))
+        closeRefresh(time);
     if (visible_ != screen_)
         enter(time);
     pending_ = false;
-    if (screen_ == Screen::mask && refreshes() >= record_.maskFramesPlanned)
-        go(Screen::second);
+    if (!counted(screen_))
+        return;
+    countRefresh(time);
+    PhaseRecord& record = recordOf(screen_);
+    if (record.framesShown < record.framesPlanned)
+        return;
+    if (form_) {
+        record.timedOut = true;
+        answer(Form::Effect::finished, time);
+    } else {
+        advance(time);
+    }
 }
 
 void TrialMachine::enter(double time) {
-    if (visible_)
-        viewed_[static_cast<std::size_t>(*visible_)] += time - since_;
-    const bool again = viewed_[static_cast<std::size_t>(screen_)] > 0;
+    if (visible_ && *visible_ != leaveScreen)
+        recordOf(*visible_).view += time - since_;
+    before_ = visible_;
     visible_ = screen_;
     since_ = time;
-
-    record_.view1 = viewed(Screen::first, time);
-    record_.mask = viewed(Screen::mask, time);
-    record_.view2 = viewed(Screen::second, time);
-    if (again)
+    if (screen_ == leaveScreen)
         return;
-    if (screen_ == Screen::first)
-        record_.onset1 = time;
-    if (screen_ == Screen::second)
-        record_.onset2 = time;
-    if (screen_ == Screen::question)
-        record_.questionOnset = time;
+    swaps_ = recordOf(screen_).framesShown;
+    firstRefresh_ = time - swaps_ / refreshHz_;
+    if (!recordOf(screen_).shown)
+        recordOf(screen_).onset = time;
+    recordOf(screen_).shown = true;
 }
 
-// Each swap of a synchronised display lasts one refresh, or more when the next comes late. The
-// backlog adds up by how much intervals were too long, less what later ones were too short: a
-// stamp that is itself late cancels out, a missed refresh stays. Intervals that are short from the
-// start (a driver that queues the first swaps) do not make it negative.
+// The interval since the last refresh of the phase on the screen. Each swap of a synchronised
+// display lasts one refresh, or more when the next comes late, which the time since the first
+// tells. Drivers that queue the first swaps return early from them; each is a refresh all the same.
+void TrialMachine::closeRefresh(double time) {
+    PhaseRecord& record = recordOf(*visible_);
+    const double interval = time - lastRefresh_;
+    record.intervals.push_back(interval);
+    record.missedFrames += interval * refreshHz_ > missedInterval;
+    const double passed = (time - firstRefresh_) * refreshHz_;
+    record.framesShown = std::max(swaps_, static_cast<int>(std::floor(passed + stampTolerance)));
+}
+
 void TrialMachine::countRefresh(double time) {
-    if (maskSwaps_ > 0) {
-        const double interval = time - lastRefresh_;
-        record_.maskIntervals.push_back(interval);
-        record_.missedFrames += interval * refreshHz_ > missedInterval;
-        backlog_ = std::max(0.0, backlog_ + interval * refreshHz_ - 1);
-    }
-    maskSwaps_ += screen_ == Screen::mask;
+    ++swaps_;
     lastRefresh_ = time;
-    record_.maskFramesShown = refreshes();
+    const double passed = (time - firstRefresh_) * refreshHz_;
+    recordOf(screen_).framesShown =
+        std::max(swaps_, static_cast<int>(std::floor(passed + stampTolerance)) + 1);
 }
-
-int TrialMachine::refreshes() const { return maskSwaps_ + static_cast<int>(std::lround(backlog_)); }
 
 void TrialMachine::handle(const Event& event) {
-    if (event.kind == Event::Kind::release) {
+    using Kind = Event::Kind;
+    if (event.kind == Kind::release) {
         held_.erase(event.key);
         return;
     }
-    if (event.kind == Event::Kind::focusLost) {
-        record_.interrupted |= exposing();
+    if (event.kind == Kind::focusLost) {
+        if (screen_ != leaveScreen && exposing(screen_))
+            interrupt();
         return;
     }
-    const bool fresh = event.kind != Event::Kind::press || held_.insert(event.key).second;
-    if (!fresh || next() == Next::answered || next() == Next::left)
+    const bool fresh = event.kind != Kind::press || held_.insert(event.key).second;
+    if (!fresh || next() == Next::finished || next() == Next::left)
         return;
-    if (masked(event.time))
-        record_.earlyPresses += event.kind == Event::Kind::press;
-    else if (pending_ || event.time < since_)
+    if (const auto phase = droppedIn(event.time)) {
+        recordOf(*phase).earlyPresses += event.kind == Kind::press;
         return;
-    else if (event.kind == Event::Kind::option)
-        choose(event.option, event.time);
-    else
+    }
+    if (visible_ != screen_ || event.time < since_)
+        return;
+    if (event.kind == Kind::press)
         press(event.key, event.time);
+    else if (screen_ == leaveScreen)
+        leave(event.option);
+    else if (form_)
+        answer(event.kind == Kind::text
+                   ? form_->type(event.symbol, viewed(screen_, event.time))
+                   : form_->click(event.option, event.share, viewed(screen_, event.time)),
+               event.time);
+    else if (event.kind == Kind::option && !phase(screen_).text.empty())
+        end(event.time);
 }
 
-// Between the press that ends image 1 and the onset of image 2.
-bool TrialMachine::masked(double time) const {
-    return screen_ == Screen::mask || (screen_ == Screen::second && visible_ == Screen::mask) ||
-           (visible_ == Screen::second && time < record_.onset2);
-}
-
-bool TrialMachine::exposing() const {
-    return screen_ == Screen::first || screen_ == Screen::mask || screen_ == Screen::second;
+// The locked phase in which a key was pressed: from when the phase before was ended until the next
+// one is on.
+std::optional<Screen> TrialMachine::droppedIn(double time) const {
+    if (locked(screen_))
+        return screen_;
+    if (locked(visible_))
+        return visible_;
+    if (locked(before_) && visible_ != leaveScreen && time < since_)
+        return before_;
+    return std::nullopt;
 }
 
 void TrialMachine::press(gl::Key key, double time) {
     if (key == gl::Key::escape)
         askToLeave();
-    else if (key == gl::Key::space)
-        pressSpace(time);
-    else if (screen_ != Screen::start)
-        choose(optionOf(key), time);
+    else if (screen_ == leaveScreen)
+        leave(optionOf(key));
+    else if (form_)
+        answer(form_->press(key, viewed(screen_, time)), time);
+    else if (key == gl::Key::space && phase(screen_).key)
+        end(time);
 }
 
-void TrialMachine::pressSpace(double time) {
-    const bool image = screen_ == Screen::first || screen_ == Screen::second;
-    if (image && viewed(screen_, time) < minimumView_)
-        ++record_.hastyPresses;
-    else if (screen_ == Screen::start)
-        go(Screen::first);
-    else if (screen_ == Screen::first)
-        go(Screen::mask);
-    else if (screen_ == Screen::second)
-        go(Screen::question);
+void TrialMachine::end(double time) {
+    if (viewed(screen_, time) < phase(screen_).atLeast)
+        ++recordOf(screen_).hastyPresses;
+    else
+        advance(time);
 }
 
-void TrialMachine::choose(int option, double time) {
-    if (option == 0)
+void TrialMachine::answer(Form::Effect effect, double time) {
+    pending_ |= effect == Form::Effect::changed;
+    if (effect != Form::Effect::finished)
         return;
-    if (screen_ == Screen::start)
-        go(Screen::first); // its only option
-    if (screen_ == Screen::question) {
-        record_.decision = viewed(Screen::question, time);
-        record_.chosen = option;
-    }
-    if (screen_ == Screen::leave) {
-        left_ = option == 2;
+    const std::vector<Answer> given = form_->answers();
+    record_.answers.insert(record_.answers.end(), given.begin(), given.end());
+    advance(time);
+}
+
+void TrialMachine::leave(int option) {
+    left_ = option == 2;
+    if (option == 1 || option == 2)
         go(paused_);
-    }
 }
 
 void TrialMachine::askToLeave() {
-    if (screen_ == Screen::leave) {
+    if (screen_ == leaveScreen) {
         go(paused_);
         return;
     }
-    record_.interrupted |= exposing();
+    if (exposing(screen_))
+        interrupt();
     paused_ = screen_;
-    go(Screen::leave);
+    go(leaveScreen);
+}
+
+void TrialMachine::interrupt() {
+    recordOf(screen_).interrupted = true;
+    record_.interrupted = true;
+}
+
+void TrialMachine::advance(double time) {
+    if (screen_ + 1 == static_cast<Screen>(phases_.size()))
+        recordOf(screen_).view = viewed(screen_, time);
+    go(screen_ + 1);
 }
 
 void TrialMachine::go(Screen screen) {
+    const bool back = screen_ == leaveScreen, away = screen == leaveScreen;
     screen_ = screen;
     pending_ = true;
+    if (back || away)
+        return;
+    form_.reset();
+    if (screen < static_cast<Screen>(phases_.size()) && !phase(screen).questions.empty())
+        form_.emplace(phase(screen).questions, images_);
 }
 
 double TrialMachine::viewed(Screen screen, double time) const {
     const double now = visible_ == screen ? time - since_ : 0;
-    return viewed_[static_cast<std::size_t>(screen)] + now;
+    return (screen == leaveScreen ? 0 : record_.phases[static_cast<std::size_t>(screen)].view) + now;
 }
 
 } // namespace obscura

@@ -1,51 +1,61 @@
 #pragma once
 
+#include "experiment/form.h"
 #include "gl/input.h"
-#include "protocols/reader/protocol.h"
+#include "protocols/reader/trial.h"
 
-#include <array>
 #include <optional>
 #include <set>
 #include <vector>
 
 namespace obscura {
 
-// What can be on the screen during a trial. `leave` asks whether to end the session.
-enum class Screen { start, first, mask, second, question, leave };
+// What can be on the screen during a trial: one of its phases, counted from 0, or the page that
+// asks whether to end the session.
+using Screen = int;
+constexpr Screen leaveScreen = -1;
 
 // What the person did, in seconds on the session's clock.
 struct Event {
-    enum class Kind { press, release, option, focusLost };
+    enum class Kind { press, release, text, option, focusLost };
 
     Kind kind = Kind::press;
     double time = 0;
     gl::Key key{};
-    int option = 0; // clicked with the mouse: 1 or 2
+    int option = 0;           // clicked with the mouse: which of the page's targets, from 1
+    double share = 0;         // how far from that target's left side, 0 ... 1
+    std::uint32_t symbol = 0; // text: a Unicode code point
 };
 
-// The option that a key stands for: 1 (also left) or 2 (also right); 0 for none.
+// Of the page that asks whether to leave: 1 (also left) or 2 (also right); 0 for other keys.
 int optionOf(gl::Key key);
 
-// What a trial yields. Times in seconds; onsets on the session's clock; a view lasts as long as
-// its picture was on the screen, pauses left out.
+// What a phase yields. Times in seconds; its onset is on the session's clock; it is on view until
+// the next comes on, the last until it is ended, pauses left out.
+struct PhaseRecord {
+    bool shown = false;
+    double onset = 0, view = 0;
+    int framesPlanned = 0, framesShown = 0, missedFrames = 0; // of a counted phase
+    int earlyPresses = 0; // keys pressed from when it was wanted until the next was on, and dropped
+    int hastyPresses = 0; // of Space, before it had been on view for `atLeast`
+    bool interrupted = false;      // the keyboard was lost, or Escape pressed, while it was on view
+    bool timedOut = false;         // questions that ended unanswered
+    std::vector<double> intervals; // between refreshes
+};
+
 struct TrialRecord {
-    double onset1 = 0, view1 = 0, mask = 0, onset2 = 0, view2 = 0, questionOnset = 0, decision = 0;
-    int maskFramesPlanned = 0, maskFramesShown = 0, missedFrames = 0;
-    int earlyPresses = 0; // keys pressed between the end of image 1 and the onset of image 2
-    int hastyPresses = 0; // of Space, before its image had been on the screen for minimumView
-    bool interrupted = false;
-    int chosen = 0;                    // 1 or 2; 0 until answered
-    std::vector<double> maskIntervals; // between its refreshes
+    std::vector<PhaseRecord> phases;
+    std::vector<Answer> answers; // in the order of the phases
+    bool interrupted = false;    // a phase was, from the first image to the last
 };
 
 // One trial as a machine without a clock, screen or keyboard of its own: it is told what was shown
-// when and what was pressed when, and says what to do next. The participant starts the pair; image
-// 1 until Space; the mask for a fixed number of refreshes; image 2 until Space; the question until
-// an answer. Nothing shown is shown again and no answer is taken back.
+// when and what was pressed when, and says what to do next. It goes through the phases in order.
+// Nothing shown is shown again and no answer is taken back.
 //
-// A key counts only for a picture that is already on the screen, and only when it was up before:
-// what is pressed in the mask is counted and dropped, even Escape; a key held down repeats nothing.
-// Space does not end an image that has been on the screen for less than minimumView: two taps in a
+// A key counts only for a phase that is already on the screen, and only when it was up before:
+// what is pressed in a locked phase is counted and dropped, even Escape; a key held down repeats
+// nothing. Space does not end a phase that has been on view for less than `atLeast`: two taps in a
 // row would lose it for good. Escape elsewhere asks whether to end the session. If that, or a lost
 // focus, broke the exposure of an image, the trial goes on but is marked interrupted: a half-seen
 // pair cannot be unseen.
@@ -55,52 +65,69 @@ class TrialMachine {
         journal, // write down that the exposure begins, then call journalled()
         present, // show screen(), then call shown()
         wait,    // sleep until there is an event
-        answered,
+        finished,
         left, // the session is to end; there is no answer
     };
 
-    TrialMachine(const Trial& timeline, double refreshHz);
+    // `images`: how many places the trial's order has.
+    TrialMachine(std::vector<Phase> phases, int images, double refreshHz);
 
     Next next() const;
     Screen screen() const { return screen_; }
+    // Of a phase that asks, what its page shows.
+    const Form* form() const { return form_ ? &*form_ : nullptr; }
+    // Of a phase that shows images in turn, which is the next to be shown, from 0.
+    int alternation() const;
     const TrialRecord& record() const { return record_; }
 
     void journalled() { journalled_ = true; }
-    // screen() came on at `time`; the mask is shown anew at every refresh. Events that arrived
-    // before must have been handled before.
+    // screen() came on at `time`; a counted phase is shown anew at every refresh. Events that
+    // arrived before must have been handled before.
     void shown(double time);
     void handle(const Event& event);
 
   private:
+    const Phase& phase(Screen screen) const { return phases_[static_cast<std::size_t>(screen)]; }
+    PhaseRecord& recordOf(Screen screen) {
+        return record_.phases[static_cast<std::size_t>(screen)];
+    }
+    bool counted(std::optional<Screen> screen) const;
+    bool locked(std::optional<Screen> screen) const;
+    bool exposing(Screen screen) const;
+    void advance(double time);
     void go(Screen screen);
     void enter(double time);
     void countRefresh(double time);
-    int refreshes() const;
-    bool masked(double time) const;
-    bool exposing() const;
+    void closeRefresh(double time);
+    std::optional<Screen> droppedIn(double time) const;
     void press(gl::Key key, double time);
-    void pressSpace(double time);
-    void choose(int option, double time);
+    void end(double time);
+    void answer(Form::Effect effect, double time);
+    void leave(int option);
     void askToLeave();
+    void interrupt();
     double viewed(Screen screen, double time) const;
 
-    double minimumView_;
+    std::vector<Phase> phases_;
+    int images_;
     double refreshHz_;
     TrialRecord record_;
 
-    Screen screen_ = Screen::start; // wanted
+    Screen screen_ = 0;             // wanted
     std::optional<Screen> visible_; // the one on the screen now,
     double since_ = 0;              // and since when
-    bool pending_ = true;           // screen_ is not on the screen yet
+    std::optional<Screen> before_;  // the one before it
+    bool pending_ = true;           // screen_ is not on the screen yet, or has changed
     bool journalled_ = false;
     bool left_ = false;
-    Screen paused_ = Screen::start;  // what `leave` returns to
-    std::array<double, 6> viewed_{}; // per screen, without the visible one
+    Screen paused_ = 0; // what the page that asks returns to
+    Screen firstImage_, lastImage_;
+    std::optional<Form> form_;
     std::set<gl::Key> held_;
 
-    int maskSwaps_ = 0;
-    double lastRefresh_ = 0;
-    double backlog_ = 0; // refreshes by which the swaps of the mask lag behind
+    // Of the counted phase that was on the screen last.
+    int swaps_ = 0;
+    double firstRefresh_ = 0, lastRefresh_ = 0;
 };
 
 } // namespace obscura

@@ -7,15 +7,23 @@ namespace obscura::gl {
 // A physical key. The values are GLFW's, so a key without a name here keeps its own number.
 enum class Key : int {
     space = 32,
-    one = 49,
+    zero = 48,
+    one = 49, // and so on to nine
     two = 50,
+    nine = 57,
     escape = 256,
     enter = 257,
+    tab = 258,
     backspace = 259,
     right = 262,
     left = 263,
+    down = 264,
+    up = 265,
+    keypadZero = 320,
     keypadOne = 321,
     keypadTwo = 322,
+    keypadNine = 329,
+    keypadEnter = 335,
 };
 
 // What a window was told, stamped when it arrived (seconds on the window's clock).

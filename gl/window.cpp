@@ -21,6 +21,14 @@ static_assert(static_cast<int>(Key::right) == GLFW_KEY_RIGHT);
 static_assert(static_cast<int>(Key::left) == GLFW_KEY_LEFT);
 static_assert(static_cast<int>(Key::keypadOne) == GLFW_KEY_KP_1);
 static_assert(static_cast<int>(Key::keypadTwo) == GLFW_KEY_KP_2);
+static_assert(static_cast<int>(Key::zero) == GLFW_KEY_0);
+static_assert(static_cast<int>(Key::nine) == GLFW_KEY_9);
+static_assert(static_cast<int>(Key::tab) == GLFW_KEY_TAB);
+static_assert(static_cast<int>(Key::down) == GLFW_KEY_DOWN);
+static_assert(static_cast<int>(Key::up) == GLFW_KEY_UP);
+static_assert(static_cast<int>(Key::keypadZero) == GLFW_KEY_KP_0);
+static_assert(static_cast<int>(Key::keypadNine) == GLFW_KEY_KP_9);
+static_assert(static_cast<int>(Key::keypadEnter) == GLFW_KEY_KP_ENTER);
 
 namespace {
 
@@ -193,9 +201,7 @@ void Window::clear(int grey) {
     glClear(GL_COLOR_BUFFER_BIT);
 }
 
-void Window::draw(const Picture& picture) {
-    picture.draw((width_ - picture.width()) / 2, (height_ - picture.height()) / 2, height_);
-}
+void Window::draw(const Picture& picture, int x, int y) { picture.draw(x, y, height_); }
 
 void Window::finish() { glFinish(); }
 

@@ -55,8 +55,8 @@ class Window {
 
     // Fills the back buffer with a code value, 0 ... 255.
     void clear(int grey);
-    // Copies the picture to the centre of the back buffer, at integer offsets.
-    void draw(const Picture& picture);
+    // Copies the picture to the back buffer, its top left corner at (x, y) from that of the buffer.
+    void draw(const Picture& picture, int x, int y);
     // Waits until all drawing is done.
     void finish();
     // Raises as an Error what the driver has complained of since the window was made.

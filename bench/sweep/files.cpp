@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -19,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int newestVersion = 1; // of the folder's files; those without a number are of version 1
+constexpr int newestVersion = 2; // of the folder's files; version 1 said none
 
 // Every field with its name, once for writing and reading; Row may be const.
 
@@ -130,12 +131,19 @@ std::string csvOf(const std::vector<Row>& rows) {
     return text;
 }
 
+// `names`: the columns of the file, in order; a field without one is NaN, or as Row has it.
 template <typename Row>
-Row rowOf(const CsvRecord& record, const std::string& file) {
+Row rowOf(const CsvRecord& record, const std::vector<std::string>& names, const std::string& file) {
     Row row;
-    int column = 0;
+    std::size_t next = 0;
     eachField(row, [&](const std::string& name, auto& value) {
-        const std::string& cell = record.cells[static_cast<std::size_t>(column++)];
+        const bool there = next < names.size() && names[next] == name;
+        if constexpr (std::is_same_v<decltype(value), double&>)
+            value = std::numeric_limits<double>::quiet_NaN();
+        if (!there)
+            return;
+        const int column = static_cast<int>(++next);
+        const std::string& cell = record.cells[next - 1];
         if (!read(cell, value))
             throw Error({file, record.line, column, name},
                         fmt::format("expected a {}number, found \"{}\"",
@@ -144,20 +152,26 @@ Row rowOf(const CsvRecord& record, const std::string& file) {
     return row;
 }
 
+// A file of an earlier version may lack columns that came later.
 template <typename Row>
-std::vector<Row> rowsOf(const fs::path& path) {
+std::vector<Row> rowsOf(const fs::path& path, int formatVersion) {
     const std::string file = path.string();
-    const std::vector<std::string> names = columnsOf<Row>();
+    std::vector<std::string> names = columnsOf<Row>();
     const std::vector<CsvRecord> records = splitCsv(readFile(path));
     if (records.empty())
         throw Error({file, 0, 0, {}}, "expected a header line, found an empty file");
+    if (formatVersion < newestVersion)
+        std::erase_if(names, [&](const std::string& name) {
+            const auto& header = records.front().cells;
+            return std::find(header.begin(), header.end(), name) == header.end();
+        });
     checkHeader(records.front(), names, file);
     std::vector<Row> rows;
     for (const CsvRecord& record : records) {
         if (const std::string fault = faultOf(record, names.size()); !fault.empty())
             throw Error({file, record.line, 0, {}}, fault);
         if (&record != &records.front())
-            rows.push_back(rowOf<Row>(record, file));
+            rows.push_back(rowOf<Row>(record, names, file));
     }
     return rows;
 }
@@ -167,12 +181,12 @@ SweepMachine readMachine(const fs::path& path) {
     SweepMachine machine;
     try {
         const auto root = nlohmann::json::parse(readFile(path));
-        if (const int found = root.value("formatVersion", newestVersion);
-            found < 1 || found > newestVersion)
+        machine.formatVersion = root.value("formatVersion", 1);
+        if (machine.formatVersion < 1 || machine.formatVersion > newestVersion)
             throw Error({file, 0, 0, "formatVersion"},
                         fmt::format("expected 1 ... {}, found {}; a later obscura-bench wrote this "
                                     "sweep, and reads it",
-                                    newestVersion, found));
+                                    newestVersion, machine.formatVersion));
         eachField(machine, [&](const std::string& name, std::string& value) {
             if (!root.contains(name) || !root[name].is_string())
                 throw Error({file, 0, 0, name},
@@ -255,8 +269,9 @@ void writeSweep(const fs::path& folder, const Sweep& sweep) {
 }
 
 Sweep readSweep(const fs::path& folder) {
-    return {readMachine(folder / "sweep.json"), rowsOf<SweepRow>(folder / "sweep.csv"),
-            rowsOf<GrowthRow>(folder / "growth.csv")};
+    const SweepMachine machine = readMachine(folder / "sweep.json");
+    return {machine, rowsOf<SweepRow>(folder / "sweep.csv", machine.formatVersion),
+            rowsOf<GrowthRow>(folder / "growth.csv", machine.formatVersion)};
 }
 
 std::string incompleteness(const Sweep& sweep) {

@@ -240,6 +240,11 @@ std::string introduction(const Sweep& sweep) {
                    escaped(machine.study));
     if (const std::string lacking = incompleteness(sweep); !lacking.empty())
         html += format("<p class=\"warning\">Not the whole study: {}.</p>\n", lacking);
+    if (machine.formatVersion < SweepMachine{}.formatVersion)
+        html += format(
+            "<p class=\"aside\">Written by an earlier obscura-bench (format {}, now {}): what "
+            "it did not measure is empty.</p>\n",
+            machine.formatVersion, SweepMachine{}.formatVersion);
     if (gl::isSoftware(machine.renderer))
         html +=
             "<p class=\"warning\">This renderer is software. What is fast on a processor need not "

@@ -61,7 +61,8 @@ struct SweepMachine {
     std::string vendor, renderer, glVersion, processor, clocks; // clocks: "" when unknown
     std::string method; // "timer queries" or "glFinish and steady clock", and why
     std::string program, study, date;
-    int rows = 0; // that all configurations give on all views at all sizes; 0: not known
+    int rows = 0;          // that all configurations give on all views at all sizes; 0: not known
+    int formatVersion = 2; // of the folder that was read
 };
 
 struct Sweep {

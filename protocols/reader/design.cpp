@@ -82,6 +82,7 @@ json toJson(const Texts& texts) {
     json words;
     for (const TextKey& key : textKeys())
         words[std::string(key.name)] = texts.*key.text;
+    words.update(json(texts.own));
     return words;
 }
 
@@ -113,6 +114,48 @@ json toJson(const Ordering& ordering) {
                        {"trials", trials},
                        {"answer", answer}});
     return result;
+}
+
+json toJson(const Question& question) {
+    const auto& [name, kind, text, options, images, unsure, lowest, least, most, low, high,
+                 optional, place] = question;
+    return {{"kind", static_cast<int>(kind)},
+            {"text", text},
+            {"options", options},
+            {"images", images},
+            {"unsure", unsure},
+            {"lowest", lowest},
+            {"range", {least, most}},
+            {"ends", {low, high}},
+            {"optional", optional}};
+}
+
+// Lists are kept by name and place, so that what differs is told by name.
+json toJson(const std::vector<Phase>& phases) {
+    json result = {{"order", json::array()}};
+    for (const Phase& phase : phases) {
+        const auto& [name, images, alternate, grey, text, progress, questions, key, atLeast,
+                     seconds, frames, place] = phase;
+        json asked = {{"order", json::array()}};
+        for (const Question& question : questions) {
+            asked["order"].push_back(question.name);
+            asked[question.name] = toJson(question);
+        }
+        result["order"].push_back(name);
+        result[name] = {{"images", images}, {"alternate", alternate}, {"grey", grey},
+                        {"text", text},     {"progress", progress},   {"questions", asked},
+                        {"key", key},       {"atLeast", atLeast},     {"seconds", seconds},
+                        {"frames", frames}};
+    }
+    return result;
+}
+
+// The shorthand as it has always been written, so that a study goes on under a later version.
+json toJson(const Trial& trial) {
+    const auto& [mask, grey, minimumView, given] = trial;
+    if (!given.empty())
+        return {{"grey", grey}, {"phases", toJson(given)}};
+    return {{"mask", mask}, {"grey", grey}, {"minimumView", minimumView}};
 }
 
 // Conditions are kept by their ids, because pictures do not depend on their order.
@@ -154,7 +197,6 @@ struct Parts {
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
                  conditions, trial, ordering, words, simulation, path, sha256] = protocol;
-    const auto& [mask, grey, minimumView] = trial;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -164,7 +206,7 @@ Parts split(const Protocol& protocol) {
         {"image", {{"width", width}, {"height", height}, {"antialiasing", antialiasing}}},
         {"normals", normalsNames()[static_cast<std::size_t>(normals)]},
         {"conditions", parts.stimuli}};
-    result.procedure = {{"trial", {{"mask", mask}, {"grey", grey}, {"minimumView", minimumView}}},
+    result.procedure = {{"trial", toJson(trial)},
                         {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};
     if (!parts.correct.empty())

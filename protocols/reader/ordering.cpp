@@ -63,22 +63,45 @@ std::vector<std::string> take(TomlTable& table, std::string_view key,
     return taken;
 }
 
-Staircase parseStaircase(TomlTable& table, const std::vector<ConditionLabels>& ladder) {
+// The question by whose answers the staircase goes.
+const Question& parseAnswer(TomlTable& table, Staircase& stair,
+                            const std::vector<Question>& questions) {
+    stair.answer = table.text("answer", stair.answer);
+    std::vector<std::string> known;
+    known.reserve(questions.size());
+    for (const Question& question : questions) {
+        if (question.name == stair.answer)
+            return question;
+        known.push_back(question.name);
+    }
+    throw Error(placeOf(table, table.has("answer") ? "answer" : "scheme"),
+                fmt::format("expected the name of a question of the trial, found \"{}\"{}",
+                            stair.answer, suggestion(stair.answer, known)));
+}
+
+Staircase parseStaircase(TomlTable& table, const std::vector<ConditionLabels>& ladder,
+                         const std::vector<Question>& questions) {
     Staircase stair;
     stair.down = table.integer("down", 1, 10, stair.down);
     stair.up = table.integer("up", 1, 10, stair.up);
     stair.reversals = table.integer("reversals", 1, 100, stair.reversals);
     stair.trials = table.integer("trials", 1, many, stair.trials);
-    stair.answer = table.text("answer", stair.answer);
+    const Question& question = parseAnswer(table, stair, questions);
     if (ladder.size() < 2)
         throw Error(placeOf(table, "scheme"),
                     "expected a staircase of two conditions or more, found one");
-    for (const ConditionLabels& step : ladder)
+    for (const ConditionLabels& step : ladder) {
+        if (question.images && !step.correct.empty() && step.correct != "a" && step.correct != "b")
+            throw Error(placeOf(table, "scheme"),
+                        fmt::format("expected \"a\" or \"b\" as the right answer to \"{}\", found "
+                                    "\"{}\"",
+                                    step.id, step.correct));
         if (step.correct.empty())
             throw Error(placeOf(table, "scheme"),
                         fmt::format("expected a right answer to each condition of a staircase, "
                                     "found none to \"{}\"; give it the key \"correct\"",
                                     step.id));
+    }
     return stair;
 }
 
@@ -142,7 +165,8 @@ const std::vector<std::string>& likenessNames() {
     return names;
 }
 
-Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& conditions) {
+Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& conditions,
+                       const std::vector<Question>& questions) {
     Ordering ordering;
     ordering.scheme = static_cast<OrderScheme>(
         table.choice("scheme", orderSchemeNames(), static_cast<std::size_t>(ordering.scheme)));
@@ -163,7 +187,7 @@ Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& con
     if (ordering.apart)
         checkApart(main, ordering, placeOf(table, "apart"));
     if (ordering.scheme == OrderScheme::staircase)
-        ordering.staircase = parseStaircase(table, main);
+        ordering.staircase = parseStaircase(table, main, questions);
 
     const int mainTrials = ordering.scheme == OrderScheme::staircase
                                ? ordering.staircase.trials

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "protocols/reader/trial.h"
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace obscura {
-
-class TomlTable;
 
 // [ordering]: who sees which conditions in which order, and what else comes between them. The
 // schemes are in experiment/schedule.h, with their sources.
@@ -45,8 +45,9 @@ struct ConditionLabels {
     std::string correct; // the right answer; "" where there is none
 };
 
-// Of a study that has these conditions, in the order of the file. An Error with file, line and
-// column also where no session could be as asked.
-Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& conditions);
+// Of a study that has these conditions, in the order of the file, and a trial with these questions.
+// An Error with file, line and column also where no session could be as asked.
+Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& conditions,
+                       const std::vector<Question>& questions);
 
 } // namespace obscura

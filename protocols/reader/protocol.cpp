@@ -138,8 +138,7 @@ Condition parseCondition(TomlTable table, const Protocol& protocol) {
     condition.hypothesis = table.text("hypothesis", "-");
     condition.simulated.chooseB =
         table.number("simulatedPreference", 0, 1, condition.simulated.chooseB);
-    if (table.has("correct"))
-        condition.correct = table.choice("correct", {"a", "b"}, 0) == 0 ? "a" : "b";
+    condition.correct = table.text("correct", condition.correct);
 
     const toml::node* pair = table.node("pair");
     const toml::array* members = pair ? pair->as_array() : nullptr;
@@ -165,20 +164,18 @@ void parseConditions(TomlTable& root, Protocol& protocol) {
     }
 }
 
-Trial parseTrial(TomlTable table) {
-    Trial trial;
-    trial.mask = table.number("mask", 0.1, 60, trial.mask);
-    trial.grey = table.integer("grey", 0, 255, trial.grey);
-    trial.minimumView = table.number("minimumView", 0, 60, trial.minimumView);
-    table.finish();
-    return trial;
-}
-
 std::vector<ConditionLabels> labelsOf(const std::vector<Condition>& conditions) {
     std::vector<ConditionLabels> labels;
     for (const Condition& one : conditions)
         labels.push_back({one.id, one.view, one.level, one.correct});
     return labels;
+}
+
+std::vector<Question> questionsOf(const std::vector<Phase>& phases) {
+    std::vector<Question> questions;
+    for (const Phase& phase : phases)
+        questions.insert(questions.end(), phase.questions.begin(), phase.questions.end());
+    return questions;
 }
 
 // Braces around anything but the name of a number are a mistake in spelling.
@@ -190,13 +187,20 @@ void checkProgress(const std::string& text, const Place& place) {
                                        text));
 }
 
-Texts parseTexts(TomlTable table) {
+// Every text of the program's own, and those that the trial's phases name besides.
+Texts parseTexts(TomlTable table, std::set<std::string> named) {
     Texts texts;
     for (const TextKey& key : textKeys()) {
         std::string& text = texts.*key.text;
-        text = table.text(key.name, key.compulsory ? std::nullopt : std::optional(text));
+        const bool isNamed = named.erase(std::string(key.name)) > 0;
+        const bool compulsory = key.compulsory || (isNamed && text.empty());
+        text = table.text(key.name, compulsory ? std::nullopt : std::optional(text));
         if (const toml::node* node = table.node(key.name))
             texts.places[std::string(key.name)] = table.placeOf(*node, table.pathOf(key.name));
+    }
+    for (const std::string& key : named) {
+        texts.own[key] = table.text(key);
+        texts.places[key] = table.placeOf(*table.node(key), table.pathOf(key));
     }
     table.finish();
     checkProgress(texts.progress, texts.places["progress"]);
@@ -249,8 +253,10 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
     if (auto ordering = root.table("ordering"))
-        protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions));
-    protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"));
+        protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
+                                          questionsOf(phasesOf(protocol.trial)));
+    protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"),
+                                textsOf(phasesOf(protocol.trial)));
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();
@@ -262,13 +268,16 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
 std::span<const TextKey> textKeys() {
     static const std::vector<TextKey> keys = {
         {"instructions", &Texts::instructions, true},
-        {"start", &Texts::start, true},
-        {"question", &Texts::question, true},
-        {"first", &Texts::first, true},
-        {"second", &Texts::second, true},
+        {"start", &Texts::start},
+        {"question", &Texts::question},
+        {"first", &Texts::first},
+        {"second", &Texts::second},
         {"thanks", &Texts::thanks, true},
         {"progress", &Texts::progress},
         {"space", &Texts::space},
+        {"enter", &Texts::enter},
+        {"done", &Texts::done},
+        {"between", &Texts::between},
         {"anyKey", &Texts::anyKey},
         {"loading", &Texts::loading},
         {"unfocused", &Texts::unfocused},
@@ -283,6 +292,12 @@ std::span<const TextKey> textKeys() {
         {"idTaken", &Texts::idTaken},
     };
     return keys;
+}
+
+const std::string& Texts::at(std::string_view key) const {
+    const auto known = std::find_if(textKeys().begin(), textKeys().end(),
+                                    [&](const TextKey& text) { return text.name == key; });
+    return known == textKeys().end() ? own.find(key)->second : this->*known->text;
 }
 
 const View& Protocol::view(const std::string& wanted) const { return find(views, wanted); }

@@ -2,6 +2,7 @@
 
 #include "protocols/reader/ordering.h"
 #include "protocols/reader/study.h"
+#include "protocols/reader/trial.h"
 
 #include <array>
 #include <cstdint>
@@ -32,23 +33,18 @@ struct Condition {
     std::string hypothesis;
     std::array<std::string, 2> pair; // names of `techniques`
     SimulatedChoice simulated;
-    std::string correct = {}; // the right answer, "a" or "b"; "" where there is none
+    std::string correct = {}; // the right answer; "" where there is none
     Place place = {};
-};
-
-// image 1, grey mask, image 2, forced choice.
-struct Trial {
-    double mask = 2;          // seconds of grey between the images; cannot be skipped
-    int grey = 128;           // code value of mask and surround, 0 ... 255
-    double minimumView = 0.5; // seconds during which Space does not yet end an image
 };
 
 // Everything that participants read, UTF-8. A study says what it asks; the rest is English unless
 // it says otherwise, so that a study in another language can translate all of it.
 struct Texts {
     std::string instructions, start, question, first, second, thanks;
-    std::string progress = "{pair} / {pairs}"; // above `start`, with the numbers put in
-    std::string space = "Space";               // the key's name
+    std::string progress = "{pair} / {pairs}";    // above `start`, with the numbers put in
+    std::string space = "Space", enter = "Enter"; // the keys' names
+    std::string done = "Done";                    // ends a page of several questions
+    std::string between = "Up and Down go from one question to another.";
     std::string anyKey = "Press any key to end.";
     std::string loading = "Loading the pictures. Please wait.";
     std::string unfocused = "The keyboard is elsewhere: click here to go on";
@@ -61,7 +57,12 @@ struct Texts {
     std::string idTaken = "There are data of this participant and session. Type another "
                           "pseudonym, or press Escape and start with another --session.";
 
-    std::map<std::string, Place, std::less<>> places; // of the keys that the protocol has
+    std::map<std::string, std::string, std::less<>> own; // texts that the trial's phases name, and
+                                                         // that are none of the above
+    std::map<std::string, Place, std::less<>> places;    // of the keys that the protocol has
+
+    // The text of a key, either kind; the parser has made sure that those of the trial exist.
+    const std::string& at(std::string_view key) const;
 };
 
 struct TextKey {

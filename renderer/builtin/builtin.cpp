@@ -66,8 +66,8 @@ std::string contentSha256(const Scene& scene) {
 std::span<const std::string> builtinSceneNames() { return names; }
 
 Scene builtinScene(std::string_view name) {
-    constexpr std::array<Scene (*)(), 3> makers{builtin::sculpture, builtin::atrium,
-                                                builtin::figures};
+    constexpr std::array makers{&builtin::sculpture, &builtin::atrium, &builtin::figures};
+    static_assert(makers.size() == std::tuple_size_v<std::remove_const_t<decltype(names)>>);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
         throw Error(fmt::format("no built-in scene \"{}\"{}", name, suggestion(name, names)));

@@ -298,7 +298,10 @@ void OcclusionPasses::set(const Settings& settings) {
     points_ = pointsOf(settings);
 }
 
+// What has yet to be drawn, light, is drawn first, for that binds other things at the same places.
 void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
+    const unsigned reads = settings_.technique().reads;
+    const auto lit = reads & light ? std::optional(inputs.light()) : std::nullopt;
     block_.bind(settingsBinding);
     if (points_)
         points_->bind(pointsBinding);
@@ -310,13 +313,11 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
         if (reduction_->normals())
             gl::bindTexture(normalUnit, *reduction_->normals());
     }
-    const unsigned reads = settings_.technique().reads;
-    if (reads & light) {
-        const auto& [buffers, lighting] = inputs.light();
+    if (lit) {
         gl::bindTexture(albedoUnit, inputs.gbuffer.albedo());
-        gl::bindTexture(ambientUnit, buffers.ambient());
-        gl::bindTexture(directUnit, buffers.direct());
-        lighting.environment().bind(environmentBinding);
+        gl::bindTexture(ambientUnit, lit->buffers.ambient());
+        gl::bindTexture(directUnit, lit->buffers.direct());
+        lit->lighting.environment().bind(environmentBinding);
     }
     if (reads & spheres)
         inputs.spheres().bind(spheresBinding);

@@ -10,14 +10,14 @@ TEST(MinimumView, HoldsSpaceBack) {
     Bench bench(0.1, 1.5);
     bench.toFirst();
     bench.look(1), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    EXPECT_EQ(bench.machine.screen(), test::firstImage);
     bench.look(0.6), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::mask);
+    EXPECT_EQ(bench.machine.screen(), test::mask);
     bench.settle();
     bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::second);
+    EXPECT_EQ(bench.machine.screen(), test::secondImage);
     bench.look(1.6), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::question);
+    EXPECT_EQ(bench.machine.screen(), test::question);
 }
 
 TEST(MinimumView, TwoTapsOfSpaceLoseNoPicture) {
@@ -30,18 +30,18 @@ TEST(MinimumView, TwoTapsOfSpaceLoseNoPicture) {
         bench.settle();
         bench.look(0.05);
     }
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
-    EXPECT_EQ(bench.record().hastyPresses, 7);
+    EXPECT_EQ(bench.machine.screen(), test::firstImage);
+    EXPECT_EQ(bench.hastyPresses(), 7);
     bench.look(0.2), bench.tap(Key::space), bench.settle();
     for (int i = 0; i < 4; ++i)
         bench.tap(Key::space), bench.look(0.1);
-    EXPECT_EQ(bench.machine.screen(), Screen::second);
-    EXPECT_EQ(bench.record().hastyPresses, 11);
+    EXPECT_EQ(bench.machine.screen(), test::secondImage);
+    EXPECT_EQ(bench.hastyPresses(), 11);
     bench.look(0.2), bench.tap(Key::space), bench.settle();
-    EXPECT_EQ(bench.machine.screen(), Screen::question);
-    EXPECT_GE(bench.record().view1, minimum);
-    EXPECT_GE(bench.record().view2, minimum);
-    EXPECT_EQ(bench.record().earlyPresses, 0);
+    EXPECT_EQ(bench.machine.screen(), test::question);
+    EXPECT_GE(bench.phase(test::firstImage).view, minimum);
+    EXPECT_GE(bench.phase(test::secondImage).view, minimum);
+    EXPECT_EQ(bench.phase(test::mask).earlyPresses, 0);
     EXPECT_FALSE(bench.record().interrupted);
 }
 
@@ -50,8 +50,8 @@ TEST(MinimumView, HeldSpaceEndsNoImageHoweverLong) {
     bench.settle();
     for (int i = 0; i < 100; ++i) // auto-repeat, should a system send it
         bench.down(Key::space), bench.settle(), bench.look(0.03);
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
-    EXPECT_EQ(bench.record().hastyPresses, 0) << "one press, and it started the pair";
+    EXPECT_EQ(bench.machine.screen(), test::firstImage);
+    EXPECT_EQ(bench.hastyPresses(), 0) << "one press, and it started the pair";
 }
 
 // Looking at the page that asks whether to leave is not looking at the image.
@@ -61,9 +61,9 @@ TEST(MinimumView, OnlyTimeInSightCountsTowardsTheMinimumView) {
     bench.look(0.2);
     bench.tap(Key::escape), bench.settle(), bench.look(60), bench.tap(Key::one), bench.settle();
     bench.look(0.2), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::first);
+    EXPECT_EQ(bench.machine.screen(), test::firstImage);
     bench.look(0.2), bench.tap(Key::space);
-    EXPECT_EQ(bench.machine.screen(), Screen::mask);
+    EXPECT_EQ(bench.machine.screen(), test::mask);
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "experiment/session.h"
 #include "protocols/reader/responses.h"
 #include "tests/experiment/tiny_study.h"
+#include "tests/experiment/trial_bench.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,15 +25,15 @@ class HastyObserver : public Observer {
     void describe(nlohmann::ordered_json&) const override {}
     bool instruct() override { return true; }
     void prepare(const Upcoming&) override {}
-    double show(Screen screen) override {
-        visible_ = screen;
+    double show(const TrialMachine& trial) override {
+        trial_ = &trial;
         return clock_ += 1 / 60.0;
     }
     std::vector<Event> events(bool wait) override {
-        if (visible_ == Screen::mask)
+        if (trial_->screen() == test::mask)
             return {};
         clock_ += wait ? patience_ : 1e-4;
-        return press(visible_ == Screen::question ? gl::Key::two : gl::Key::space);
+        return press(trial_->screen() == test::question ? gl::Key::two : gl::Key::space);
     }
     void thank() override {}
 
@@ -42,7 +43,7 @@ class HastyObserver : public Observer {
     }
 
     double patience_;
-    Screen visible_ = Screen::start;
+    const TrialMachine* trial_ = nullptr; // what it shows
     double clock_ = 0;
 };
 

@@ -5,6 +5,7 @@
 #include "protocols/reader/responses.h"
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"
+#include "tests/experiment/trial_bench.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -289,10 +290,10 @@ class Interrupted : public SimulatedObserver {
         trial_ = trial.index;
         SimulatedObserver::prepare(trial);
     }
-    double show(Screen screen) override {
-        if (trial_ == 3 && screen == Screen::second)
+    double show(const TrialMachine& trial) override {
+        if (trial_ == 3 && trial.screen() == test::secondImage)
             ::raise(SIGTERM);
-        return SimulatedObserver::show(screen);
+        return SimulatedObserver::show(trial);
     }
 
   private:

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "experiment/pages.h"
+#include "tests/experiment/pair_pages.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,6 +11,9 @@
 
 namespace obscura {
 namespace {
+
+using test::questionPage;
+using test::startPage;
 
 Texts withWords(const std::string& instructions, const std::string& start,
                 const std::string& question, const std::string& first, const std::string& second,

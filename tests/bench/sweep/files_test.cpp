@@ -103,8 +103,33 @@ TEST_F(SweepFiles, NameThePlaceOfAFault) {
     EXPECT_THAT(errorAfter("sweep.json", "\"vendor\"", "\"seller\""),
                 HasSubstr("s/sweep.json: vendor: expected a text of this name, found none"));
     EXPECT_THAT(errorAfter("sweep.json", ",", ";"), HasSubstr("line 2, column"));
-    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 1", "\"formatVersion\": 2"),
-                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 1, found 2; a later"));
+    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 2", "\"formatVersion\": 3"),
+                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 2, found 3; a later"));
+}
+
+// Takes a column, the last but one, out of every line.
+std::string withoutFlip(const std::string& csv) {
+    std::string result;
+    for (const CsvRecord& record : splitCsv(csv))
+        for (std::size_t i = 0; i < record.cells.size(); ++i)
+            if (i + 2 != record.cells.size())
+                result += csvCell(record.cells[i]) + (i + 1 < record.cells.size() ? "," : "\n");
+    return result;
+}
+
+TEST_F(SweepFiles, OfAnEarlierVersionMayLackColumns) {
+    writeSweep(folder_ / "s", test::smallSweep());
+    writeFile(folder_ / "s/sweep.csv", withoutFlip(readFile(folder_ / "s/sweep.csv")));
+    EXPECT_THAT(test::errorOf([&] { readSweep(folder_ / "s"); }),
+                HasSubstr("expected column \"lit_matched_flip\", found \"thumbnail\""));
+    std::string json = readFile(folder_ / "s/sweep.json");
+    const std::string version = "  \"formatVersion\": 2,\n";
+    writeFile(folder_ / "s/sweep.json", json.erase(json.find(version), version.size()));
+    const Sweep read = readSweep(folder_ / "s");
+    EXPECT_EQ(read.machine.formatVersion, 1);
+    EXPECT_TRUE(std::isnan(read.rows.at(0).litMatched.flip));
+    EXPECT_EQ(read.rows.at(0).litMatched.ssim, test::smallSweep().rows.at(0).litMatched.ssim);
+    EXPECT_EQ(read.rows.at(0).thumbnail, test::smallSweep().rows.at(0).thumbnail);
 }
 
 TEST_F(SweepFiles, RefuseALineThatWasCutOff) {

@@ -97,13 +97,13 @@ TEST(Ordering, ReadsEveryKey) {
     EXPECT_EQ(shuffled.breakEvery, 4);
 
     const Ordering stairs = read("scheme = \"staircase\"\npractice = [\"five\"]\ndown = 3\nup = 2\n"
-                                 "reversals = 6\ntrials = 40\nanswer = \"sure\"");
+                                 "reversals = 6\ntrials = 40\nanswer = \"choice\"");
     EXPECT_EQ(stairs.scheme, OrderScheme::staircase);
     EXPECT_EQ(stairs.staircase.down, 3);
     EXPECT_EQ(stairs.staircase.up, 2);
     EXPECT_EQ(stairs.staircase.reversals, 6);
     EXPECT_EQ(stairs.staircase.trials, 40);
-    EXPECT_EQ(stairs.staircase.answer, "sure");
+    EXPECT_EQ(stairs.staircase.answer, "choice");
 }
 
 struct OrderingMistake {
@@ -163,6 +163,9 @@ const OrderingMistake mistakes[] = {
      ":27:10: ordering.scheme: expected a right answer to each condition of a staircase, found "
      "none "
      "to \"five\"; give it the key \"correct\""},
+    {"UnknownAnswer", "scheme = \"staircase\"\nanswer = \"chioce\"",
+     ":28:10: ordering.answer: expected the name of a question of the trial, found \"chioce\"; did "
+     "you mean \"choice\"?"},
     {"StaircaseOfOne",
      "scheme = \"staircase\"\npractice = [\"two\", \"three\", \"four\", \"five\"]",
      ":27:10: ordering.scheme: expected a staircase of two conditions or more, found one"},
@@ -212,8 +215,7 @@ TEST(Ordering, AllThatDecidesAnOrderIsInTheDesign) {
              {stairs, stairs + "down = 1"},
              {stairs, stairs + "up = 2"},
              {stairs, stairs + "reversals = 9"},
-             {stairs, stairs + "trials = 99"},
-             {stairs, stairs + "answer = \"other\""}})
+             {stairs, stairs + "trials = 99"}})
         EXPECT_NE(design(study(one)), design(study(other))) << one << "\n" << other;
     EXPECT_EQ(design(study("")), design(study("scheme = \"williams\"\nrepeats = 1")));
     EXPECT_EQ(design(study("")), design(study("participants = 3")));
@@ -221,6 +223,15 @@ TEST(Ordering, AllThatDecidesAnOrderIsInTheDesign) {
     std::string other = study(stairs);
     other.replace(other.find("correct = \"b\""), 13, "correct = \"a\"");
     EXPECT_NE(design(other), design(study(stairs)));
+}
+
+TEST(Ordering, ARightAnswerAmongImagesIsARole) {
+    std::string text = study("scheme = \"staircase\"\npractice = [\"five\"]");
+    text.replace(text.find("correct = \"b\""), 13, "correct = \"B\"");
+    EXPECT_THAT(
+        [&] { parseProtocol(text, "small.toml"); },
+        ThrowsMessage<Error>("small.toml:27:10: ordering.scheme: expected \"a\" or \"b\" as "
+                             "the right answer to \"one\", found \"B\""));
 }
 
 // As it was before there was a choice, or studies that run could not go on.

@@ -156,8 +156,6 @@ inline const Mistake mistakes[] = {
     {"UnknownOrdering", "[texts]", "[ordering]\nscheme = \"tesis\"\n\n[texts]",
      "small.toml:42:10: ordering.scheme: expected one of \"thesis\", \"latin\", \"williams\", "
      "\"shuffle\", \"listed\", \"staircase\", found \"tesis\"; did you mean \"thesis\"?"},
-    {"CorrectIsNoMember", "level = \"low\"", "level = \"low\"\ncorrect = \"B\"",
-     "small.toml:35:11: conditions[1].correct: expected one of \"a\", \"b\", found \"B\""},
     {"TextsMissing",
      "[texts]\ninstructions = \"Look.\"\nstart = \"Start\"\nquestion = \"Which?\"\nfirst = "
      "\"first\"\nsecond = \"second\"\nthanks = \"Thanks\"\n",

@@ -1,0 +1,269 @@
+#include "experiment/typesetter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+using Font = std::unique_ptr<PangoFontDescription, Call<pango_font_description_free>>;
+using LayoutIter = std::unique_ptr<PangoLayoutIter, Call<pango_layout_iter_free>>;
+
+constexpr const char* family = "DejaVu Sans, Noto Sans, Liberation Sans, Sans";
+constexpr double lineSpacing = 1.18;
+constexpr double measure = 34; // line length in em: some 65 characters
+
+// A text stands at its layout's left or right side as its letters run, so the layout is made no
+// wider than its widest line: then either side is the block's own.
+void narrow(PangoLayout* layout) {
+    const LayoutIter lines(pango_layout_get_iter(layout));
+    int widest = 0;
+    do {
+        PangoRectangle logical;
+        pango_layout_iter_get_line_extents(lines.get(), nullptr, &logical);
+        widest = std::max(widest, logical.width);
+    } while (pango_layout_iter_next_line(lines.get()));
+    // A pixel more, so that rounding does not break a line anew.
+    pango_layout_set_width(layout, std::min(pango_layout_get_width(layout), widest + PANGO_SCALE));
+}
+
+} // namespace
+
+Layout layOut(cairo_t* cairo, const std::string& text, double pixels, bool bold) {
+    Layout layout(pango_cairo_create_layout(cairo));
+    const Font font(pango_font_description_from_string(family));
+    pango_font_description_set_absolute_size(font.get(), std::round(pixels) * PANGO_SCALE);
+    pango_font_description_set_weight(font.get(), bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+    pango_layout_set_font_description(layout.get(), font.get());
+    pango_layout_set_text(layout.get(), text.data(), static_cast<int>(text.size()));
+    return layout;
+}
+
+// Black contrasts more than white where the paper is lighter than about code value 118.
+Palette paletteFor(int grey) {
+    const double paper = grey / 255.0;
+    const double towardsInk = grey >= 118 ? -1 : 1;
+    return {paper, grey >= 118 ? 0.04 : 0.96, std::clamp(paper - towardsInk * 0.1, 0.0, 1.0),
+            std::clamp(paper + towardsInk * 0.2, 0.0, 1.0)};
+}
+
+double Setter::column() const { return std::min(measure * em_, 0.86 * width_); }
+
+Layout Setter::lay(const std::string& text, double size, bool bold, double wrapAt) const {
+    Layout layout = layOut(cairo_, text, size * em_, bold);
+    pango_layout_set_width(layout.get(), static_cast<int>(std::max(wrapAt, em_)) * PANGO_SCALE);
+    pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
+    pango_layout_set_line_spacing(layout.get(), lineSpacing);
+    return layout;
+}
+
+Setter::Block Setter::boxed(Layout layout) {
+    PangoRectangle ink, logical;
+    pango_layout_get_pixel_extents(layout.get(), &ink, &logical);
+    const auto [left, right] =
+        std::minmax({logical.x, logical.x + logical.width, ink.x, ink.x + ink.width});
+    const auto [top, bottom] =
+        std::minmax({logical.y, logical.y + logical.height, ink.y, ink.y + ink.height});
+    return {std::move(layout), static_cast<double>(left), static_cast<double>(top),
+            static_cast<double>(right - left), static_cast<double>(bottom - top)};
+}
+
+Setter::Block Setter::block(const std::string& text, double size, bool bold, double wrapAt) const {
+    if (text.empty())
+        return {};
+    Layout layout = lay(text, size, bold, wrapAt);
+    narrow(layout.get());
+    return boxed(std::move(layout));
+}
+
+void Setter::rounded(double x, double top, double width, double height, double radius) const {
+    constexpr double quarter = 1.5707963267948966;
+    cairo_new_path(cairo_);
+    cairo_arc(cairo_, x + width - radius, top + radius, radius, -quarter, 0);
+    cairo_arc(cairo_, x + width - radius, top + height - radius, radius, 0, quarter);
+    cairo_arc(cairo_, x + radius, top + height - radius, radius, quarter, 2 * quarter);
+    cairo_arc(cairo_, x + radius, top + radius, radius, 2 * quarter, 3 * quarter);
+    cairo_close_path(cairo_);
+}
+
+void Setter::put(const Block& block, double left, double top) const {
+    if (!block.layout)
+        return;
+    cairo_move_to(cairo_, std::round(left - block.x), std::round(top - block.y));
+    pango_cairo_show_layout(cairo_, block.layout.get());
+}
+
+// The only thing on a page that is meant to be seen from across the room.
+void Setter::warning(const std::string& text) {
+    Layout layout = lay(text, 0.8, true, 0.94 * width_);
+    pango_layout_set_alignment(layout.get(), PANGO_ALIGN_CENTER);
+    const Block band = boxed(std::move(layout));
+    const double height = band.height + 0.8 * em_;
+    if (drawing) {
+        ink(palette_.ink);
+        cairo_rectangle(cairo_, 0, 0, width_, height);
+        cairo_fill(cairo_);
+        ink(palette_.ink < 0.5 ? 1 : 0);
+        put(band, (width_ - band.width) / 2, 0.4 * em_);
+    }
+    tooWide |= band.width > width_;
+    y = height;
+}
+
+// Centred as a block, its lines flush with the side from which they are read: a short line stands
+// over the options, a long text fills the column.
+void Setter::paragraph(const std::string& text, double size, bool bold) {
+    if (text.empty())
+        return;
+    const Block lines = block(text, size, bold, column());
+    if (drawing) {
+        ink(palette_.ink);
+        put(lines, (width_ - lines.width) / 2, y);
+    }
+    tooWide |= lines.width > width_;
+    y += lines.height;
+}
+
+void Setter::fill(double shade, double edge, double line) const {
+    ink(shade);
+    cairo_fill_preserve(cairo_);
+    ink(edge);
+    cairo_set_line_width(cairo_, line);
+    cairo_stroke(cairo_);
+}
+
+// Of a text that is too long for the field, the end is shown.
+Box Setter::field(const Page::Field& field) {
+    const double fieldWidth = std::min(18 * em_, column()), height = 2.2 * em_;
+    const double x = (width_ - fieldWidth) / 2, top = y;
+    Layout layout =
+        lay(field.typed + (field.focus ? "\u2502" : ""), 1.1, false, fieldWidth - 1.2 * em_);
+    pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
+    pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_START);
+    const Block line = boxed(std::move(layout));
+    if (drawing) {
+        rounded(x, y, fieldWidth, height, 0.3 * em_);
+        fill(palette_.card, field.focus ? palette_.ink : palette_.edge, field.focus ? 3 : 2);
+        ink(palette_.ink);
+        put(line, x + 0.6 * em_, y + (height - line.height) / 2);
+    }
+    y += height;
+    return {static_cast<int>(x), static_cast<int>(top), static_cast<int>(fieldWidth),
+            static_cast<int>(height)};
+}
+
+// A line with a knob, its value above, what its ends mean below. Without a value it has no knob, so
+// that no place is suggested.
+Box Setter::slider(const Page::Slider& slider) {
+    const double length = column(), x = (width_ - length) / 2, knob = 0.55 * em_, top = y;
+    const double line = top + 1.9 * em_;
+    const Block low = block(slider.low, 0.8, false, length / 2.2),
+                high = block(slider.high, 0.8, false, length / 2.2),
+                value = block(slider.value, 0.9, true, length);
+    if (drawing) {
+        ink(palette_.ink);
+        cairo_set_line_width(cairo_, 3);
+        for (const double end : {0.0, 1.0}) {
+            cairo_move_to(cairo_, x + end * length, line - 0.4 * em_);
+            cairo_line_to(cairo_, x + end * length, line + 0.4 * em_);
+        }
+        cairo_move_to(cairo_, x, line);
+        cairo_line_to(cairo_, x + length, line);
+        cairo_stroke(cairo_);
+        put(low, x, line + 0.8 * em_);
+        put(high, x + length - high.width, line + 0.8 * em_);
+        if (slider.share) {
+            const double at = x + *slider.share * length;
+            rounded(at - knob, line - knob, 2 * knob, 2 * knob, knob);
+            fill(palette_.ink, palette_.paper, 2);
+            ink(palette_.ink);
+            put(value, std::clamp(at - value.width / 2, 0.0, width_ - value.width), top);
+        }
+    }
+    y = line + 0.8 * em_ + std::max({low.height, high.height, 0.2 * em_});
+    return {static_cast<int>(x), static_cast<int>(top), static_cast<int>(length),
+            static_cast<int>(y - top)};
+}
+
+std::vector<Box> Setter::pictures(const Page::Pictures& pictures) {
+    std::vector<Box> boxes = gridOf(pictures, static_cast<int>(width_), static_cast<int>(2 * em_));
+    double bottom = y;
+    int number = 0;
+    for (Box& box : boxes) {
+        box.y += static_cast<int>(y);
+        const Block label = block(std::to_string(++number), 1, true, width_);
+        if (drawing) {
+            ink(palette_.ink);
+            put(label, box.x + (box.width - label.width) / 2, box.y + box.height + 0.3 * em_);
+        }
+        tooWide |= box.x < 0;
+        bottom = std::max(bottom, box.y + box.height + 2 * em_);
+    }
+    y = bottom;
+    return boxes;
+}
+
+// A key's cap, and beside it what the key says; together no wider than `widest`, if that can be.
+Setter::Card Setter::card(const Page::Option& option, double widest) const {
+    constexpr double around = 1.6, inCap = 1, beside = 0.8; // em
+    Card card;
+    card.chosen = option.chosen;
+    card.key = block(option.key, 0.9, true, widest - (around + inCap) * em_);
+    card.width = std::max(card.key.width, em_) + (inCap + around) * em_;
+    if (!option.label.empty()) {
+        card.label = block(option.label, 1, false, widest - card.width - beside * em_);
+        card.width += card.label.width + beside * em_;
+    }
+    card.height = std::max(card.key.height, card.label.height) + 1.8 * em_;
+    return card;
+}
+
+void Setter::drawCard(const Card& card, double x, double width) const {
+    const double writing = card.chosen ? palette_.paper : palette_.ink;
+    rounded(x, y, width, card.height, 0.4 * em_);
+    fill(card.chosen ? palette_.ink : palette_.card, palette_.edge, card.chosen ? 4 : 2);
+
+    const Block &key = card.key, &label = card.label;
+    const double capWidth = std::max(key.width, em_) + em_;
+    const double capHeight = key.height + 0.6 * em_;
+    const double left = std::round(x + (width - card.width) / 2 + 0.8 * em_);
+    const double middle = y + card.height / 2;
+    ink(writing);
+    cairo_set_line_width(cairo_, 2);
+    put(key, left + (capWidth - key.width) / 2, middle - key.height / 2);
+    if (!label.layout) // the card itself is the key
+        return;
+    rounded(left, middle - capHeight / 2, capWidth, capHeight, 0.25 * em_);
+    cairo_stroke(cairo_);
+    put(label, left + capWidth + 0.8 * em_, middle - label.height / 2);
+}
+
+// Side by side, of one size, centred: the first image's option is the left one, as its arrow key
+// is, whichever way the words run.
+std::vector<Box> Setter::options(const std::vector<Page::Option>& options) {
+    const double space = 1.6 * em_, count = static_cast<double>(options.size());
+    const double room = width_ - 2 * em_ - (count - 1) * space;
+    std::vector<Card> cards;
+    double width = 0, height = 0;
+    for (const Page::Option& option : options) {
+        cards.push_back(card(option, std::floor(room / count)));
+        width = std::max(width, cards.back().width);
+        height = std::max(height, cards.back().height);
+    }
+    tooWide |= count * width > room;
+    double x = std::round((width_ - count * width - (count - 1) * space) / 2);
+    std::vector<Box> boxes;
+    for (Card& card : cards) {
+        card.height = height;
+        if (drawing)
+            drawCard(card, x, width);
+        boxes.push_back({static_cast<int>(x), static_cast<int>(y), static_cast<int>(width),
+                         static_cast<int>(height)});
+        x += width + space;
+    }
+    y += height;
+    return boxes;
+}
+
+} // namespace obscura
