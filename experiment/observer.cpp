@@ -45,7 +45,8 @@ void SimulatedObserver::describe(nlohmann::ordered_json& sidecar) const {
 }
 
 void SimulatedObserver::prepare(const Upcoming& trial) {
-    const Condition& condition = protocol_.conditions.at(static_cast<std::size_t>(trial.condition));
+    const Condition& condition =
+        protocol_.conditions.at(static_cast<std::size_t>(trial.planned.condition));
     const double preferSecond =
         trial.order.front() == "b" ? 1 - condition.simulated.chooseB : condition.simulated.chooseB;
     chooseSecond_ = std::clamp(preferSecond + protocol_.simulation.positionBias, 0.0, 1.0);

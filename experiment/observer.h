@@ -2,6 +2,7 @@
 
 #include "base/random.h"
 #include "experiment/refresh.h"
+#include "experiment/selection.h"
 #include "experiment/study.h"
 #include "experiment/trial.h"
 
@@ -14,8 +15,8 @@ namespace obscura {
 
 // A trial about to be run.
 struct Upcoming {
-    int index = 0, count = 0;       // which of how many, from 1
-    int condition = 0;              // as the protocol counts them, from 0
+    int index = 0, count = 0; // which of how many, from 1
+    PlannedTrial planned;
     std::vector<std::string> order; // the roles at the places 1, 2 and so on
 
     // The role of an image that a phase names by its place in the order, or by its role.
@@ -37,6 +38,7 @@ class Observer {
     virtual double show(const TrialMachine& trial) = 0;
     // What the person has done since; with `wait`, sleeps until there is something.
     virtual std::vector<Event> events(bool wait) = 0;
+    virtual bool rest() = 0; // between trials; false when the person leaves instead of going on
     virtual void thank() = 0;
 };
 
@@ -54,6 +56,7 @@ class SimulatedObserver : public Observer {
     void prepare(const Upcoming& trial) override;
     double show(const TrialMachine& trial) override; // at the next refresh of a 60 Hz clock
     std::vector<Event> events(bool wait) override;
+    bool rest() override { return true; }
     void thank() override {}
 
   private:

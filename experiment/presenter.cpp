@@ -17,8 +17,6 @@ namespace {
 constexpr double progressInterval = 0.1; // seconds
 constexpr const char* idTitle = "who takes part?";
 
-int trialCount(const Study& study) { return static_cast<int>(study.manifest.conditions.size()); }
-
 int imageCount(const Study& study) {
     int count = 0;
     for (const ConditionRecord& condition : study.manifest.conditions)
@@ -72,7 +70,7 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
 // Texts that do not fit should stop the session before it begins. They need most room while another
 // window has the keyboard.
 void Presenter::checkFits() const {
-    const int pairs = trialCount(study_), images = imageCount(study_);
+    const int pairs = longest(study_.protocol), images = imageCount(study_);
     const gl::Window& window = display_.window();
     std::vector<Page> pages = {loadingPage(texts_, images, images),
                                idPage(texts_, "", texts_.idMalformed),
@@ -152,7 +150,7 @@ Page::Pictures Presenter::room(const Phase& phase) const {
 }
 
 const gl::Picture& Presenter::picture(const std::string& image) const {
-    return pictures_.at(static_cast<std::size_t>(trial_.condition)).at(trial_.role(image));
+    return pictures_.at(static_cast<std::size_t>(trial_.planned.condition)).at(trial_.role(image));
 }
 
 std::vector<Placed> Presenter::placedOn(const Sheet& sheet) const {
@@ -315,6 +313,13 @@ bool Presenter::leaves() {
 }
 
 bool Presenter::instruct() { return read(sheet(instructionsPage(texts_), "instructions")); }
+
+bool Presenter::rest() {
+    Page page;
+    page.text = texts_.rest;
+    page.options = {{texts_.space, ""}};
+    return read(sheet(std::move(page), "break"));
+}
 
 void Presenter::thank() {
     const Sheet page = sheet(thanksPage(texts_), "thanks");

@@ -40,6 +40,7 @@ class Presenter : public Observer {
     void prepare(const Upcoming& trial) override;
     double show(const TrialMachine& trial) override;
     std::vector<Event> events(bool wait) override;
+    bool rest() override;
     void thank() override;
 
   private:

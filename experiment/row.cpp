@@ -17,6 +17,7 @@ namespace {
 std::string settings(const Recipe& recipe) { return nlohmann::json(recipe.settings).dump(); }
 
 Response identity(const Context& context, const Upcoming& trial) {
+    const PlannedTrial& planned = trial.planned;
     Response row;
     row.rowId =
         fmt::format("{}-{}-{}", context.session.participant, context.session.number, trial.index);
@@ -29,8 +30,10 @@ Response identity(const Context& context, const Upcoming& trial) {
     row.slotId = context.assignment.slot;
     row.squareId = context.assignment.square;
     row.squareRow = context.assignment.row;
-    row.pairsReversed = context.assignment.reversed;
+    row.pairsReversed = context.assignment.exchange != 0;
     row.trialIndex = trial.index;
+    row.trialKind = nameOf(planned.kind);
+    row.repeatIndex = planned.repeat;
     return row;
 }
 
@@ -117,7 +120,7 @@ std::optional<PairPhases> pairPhasesOf(const Trial& trial) {
 Response makeRow(const Context& context, const Upcoming& trial, const TrialRecord& record,
                  const PairPhases& pair) {
     Response row = identity(context, trial);
-    addCondition(row, context.study.condition(trial.condition), trial);
+    addCondition(row, context.study.condition(trial.planned.condition), trial);
     addTiming(row, record, pair, context.refresh);
     addAnswer(row, record, pair);
     addProvenance(row, context.study.protocol);
@@ -131,7 +134,7 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
 }
 
 TrialKey keyOf(const Context& context, const Upcoming& trial, const std::string& part) {
-    const ConditionRecord& condition = context.study.condition(trial.condition);
+    const ConditionRecord& condition = context.study.condition(trial.planned.condition);
     TrialKey key;
     key.rowId = fmt::format("{}-{}-{}-{}", context.session.participant, context.session.number,
                             trial.index, part);
@@ -142,6 +145,9 @@ TrialKey keyOf(const Context& context, const Upcoming& trial, const std::string&
     key.rehearsal = context.session.rehearsal;
     key.slotId = context.assignment.slot;
     key.trialIndex = trial.index;
+    key.trialKind = nameOf(trial.planned.kind);
+    key.repeatIndex = trial.planned.repeat;
+    key.block = trial.planned.block;
     key.conditionId = condition.condition;
     key.level = condition.level;
     key.scene = condition.view;
@@ -163,7 +169,7 @@ PhaseRow phaseRow(const Context& context, const Upcoming& trial, const Phase& ph
     std::vector<std::string> roles, files, hashes;
     for (const std::string& image : phase.images) {
         const ImageRecord& shown =
-            context.study.condition(trial.condition).image(trial.role(image));
+            context.study.condition(trial.planned.condition).image(trial.role(image));
         roles.push_back(shown.role);
         files.push_back(shown.image.path);
         hashes.push_back(shown.image.sha256);

@@ -3,7 +3,7 @@
 #include "experiment/ledger.h"
 #include "experiment/observer.h"
 #include "experiment/recorder.h"
-#include "experiment/schedule.h"
+#include "experiment/selection.h"
 #include "experiment/study.h"
 #include "experiment/trial.h"
 #include "protocols/reader/responses.h"

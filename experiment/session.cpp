@@ -4,6 +4,7 @@
 #include "experiment/continuity.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
+#include "experiment/selection.h"
 #include "experiment/sidecar.h"
 #include "experiment/signals.h"
 
@@ -49,6 +50,29 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
     }
 }
 
+// The roles at the places 1, 2 and so on.
+std::vector<std::string> placed(const std::vector<std::string>& roles,
+                                const std::vector<int>& order) {
+    std::vector<std::string> result;
+    for (const int role : order)
+        result.push_back(roles[static_cast<std::size_t>(role)]);
+    return result;
+}
+
+// What an order may depend on: each answer as it was given, but of images the role in place of the
+// number.
+PastTrial remember(const std::vector<Phase>& phases, const Upcoming& trial,
+                   const TrialRecord& record) {
+    PastTrial past{trial.planned, {}, record.interrupted};
+    for (const Answer& answer : record.answers)
+        past.answers[answer.name] = answer.value;
+    for (const Phase& phase : phases)
+        for (const Question& question : phase.questions)
+            if (question.images)
+                past.answers[question.name] = trial.role(past.answers[question.name]);
+    return past;
+}
+
 int hastyPressesOf(const TrialRecord& record) {
     int sum = 0;
     for (const PhaseRecord& phase : record.phases)
@@ -60,21 +84,26 @@ int hastyPressesOf(const TrialRecord& record) {
 // counted phases.
 bool playAll(const Context& context, Observer& observer, Recorder& recorder,
              std::vector<double>& intervals) {
-    const auto& order = context.assignment.order;
-    const Trial& shape = context.study.protocol.trial;
-    const std::vector<Phase> phases = phasesOf(shape);
-    std::vector<std::string> roles = shape.order;
-    if (context.assignment.reversed)
-        std::reverse(roles.begin(), roles.end());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Upcoming trial{static_cast<int>(i) + 1, static_cast<int>(order.size()), order[i],
-                             roles};
-        TrialMachine machine(phases, static_cast<int>(roles.size()), context.refresh.hz);
+    const Protocol& protocol = context.study.protocol;
+    const std::vector<Phase> phases = phasesOf(protocol.trial);
+    const int count = longest(protocol);
+    std::vector<PastTrial> history;
+    for (int index = 1; const auto planned = next(protocol, context.assignment.slot, history);) {
+        if (planned->kind == PlannedTrial::Kind::rest) {
+            if (!observer.rest())
+                return false;
+            history.push_back({*planned, {}, false});
+            continue;
+        }
+        const Upcoming trial{index++, count, *planned,
+                             placed(protocol.trial.order, planned->roles)};
+        TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz);
         observer.prepare(trial);
         if (!play(machine, observer, recorder, trial.index,
-                  context.study.condition(trial.condition).condition))
+                  context.study.condition(trial.planned.condition).condition))
             return false;
         recorder.finished(trial.index, linesOf(context, trial, machine.record()));
+        history.push_back(remember(phases, trial, machine.record()));
         if (const int hasty = hastyPressesOf(machine.record()))
             recorder.hastyPresses(trial.index, hasty);
         for (const PhaseRecord& phase : machine.record().phases)
@@ -96,9 +125,7 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
         claim.emplace(ledger, session, designSha256);
         keepDesign(folder, study);
     }
-    const Assignment assignment =
-        assign(study.protocol.ordering.scheme, static_cast<int>(study.protocol.conditions.size()),
-               study.protocol.seed, claim ? claim->slot() : 1);
+    const Assignment assignment = assign(study.protocol, claim ? claim->slot() : 1);
     const Refresh refresh = observer.refresh();
     const Context context{study, session, assignment, refresh, designSha256};
     Recorder recorder(folder, session, assignment.slot,

@@ -13,10 +13,12 @@ using nlohmann::ordered_json;
 
 namespace {
 
-ordered_json orderOf(const Study& study, const Assignment& assignment) {
+// Of all trials that have a row; empty where answers decide it.
+ordered_json orderOf(const Context& context) {
     ordered_json order = ordered_json::array();
-    for (const int condition : assignment.order)
-        order.push_back(study.condition(condition).condition);
+    for (const PlannedTrial& trial : planned(context.study.protocol, context.assignment.slot))
+        if (trial.kind != PlannedTrial::Kind::rest)
+            order.push_back(context.study.condition(trial.condition).condition);
     return order;
 }
 
@@ -48,8 +50,8 @@ ordered_json circumstances(const Context& context, const Observer& observer) {
         {"slot", context.assignment.slot},
         {"square", context.assignment.square},
         {"square_row", context.assignment.row},
-        {"pairs_reversed", context.assignment.reversed},
-        {"order", orderOf(context.study, context.assignment)},
+        {"pairs_reversed", context.assignment.exchange != 0},
+        {"order", orderOf(context)},
         {"protocol_seed", protocol.seed},
         {"grey", protocol.trial.grey},
         {"mask_s", protocol.trial.mask},

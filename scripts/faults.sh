@@ -90,9 +90,21 @@ fault design-forgotten experiment/continuity.cpp \
 fault rehearsal-takes-a-slot experiment/session.cpp \
     's|\(!session\.rehearsal\)|(true)|' \
     experiment_test 'SimulationTest.*'
-fault order-reversed-late experiment/schedule.cpp \
-    's|place >= conditions|place > conditions|' \
+fault exchange-lost experiment/schedule.cpp \
+    's|exchange = place / rows|exchange = 0|' \
     experiment_test 'Schedule.*'
+fault mirror-forgotten experiment/schedule.cpp \
+    's|forwards\.rbegin\(\), forwards\.rend\(\)|forwards.begin(), forwards.end()|' \
+    experiment_test 'Schedule.Williams*'
+fault repeat-not-reversed experiment/selection.cpp \
+    's|repeat % 2 == 0|repeat > 2|' \
+    experiment_test 'Selection.Repeats*'
+fault neighbours-alike experiment/selection.cpp \
+    's|count\.second <= left\.size|count.second <= 1 + left.size|' \
+    experiment_test 'Selection.WhatIsToBeApart*'
+fault reversal-at-the-end experiment/staircase.cpp \
+    's|level \+ move < 0|level + move < -1|' \
+    experiment_test 'Staircase.*'
 fault unit-lost experiment/row.cpp \
     's|row\.view2Ms = 1000 \* |row.view2Ms = |' \
     experiment_test 'SimulationTest.TimesAddUp'

@@ -86,6 +86,36 @@ json toJson(const Texts& texts) {
     return words;
 }
 
+// All that decides an order, and of that only what differs from how it was before there was a
+// choice: the designs of studies that run must not change. The planned number of participants
+// decides none.
+json toJson(const Ordering& ordering) {
+    const auto& [scheme, participants, repeats, blocks, apart, practice, catches, catchEvery,
+                 breakEvery, staircase] = ordering;
+    const auto& [down, up, reversals, trials, answer] = staircase;
+    const auto nameOf = [](Likeness one) { return likenessNames()[static_cast<std::size_t>(one)]; };
+    json result = {{"scheme", orderSchemeNames()[static_cast<std::size_t>(scheme)]}};
+    if (repeats != 1)
+        result["repeats"] = repeats;
+    if (blocks)
+        result["blocks"] = nameOf(*blocks);
+    if (apart)
+        result["apart"] = nameOf(*apart);
+    if (!practice.empty())
+        result["practice"] = practice;
+    if (!catches.empty())
+        result.update({{"catch", catches}, {"catchEvery", catchEvery}});
+    if (breakEvery)
+        result["breakEvery"] = breakEvery;
+    if (scheme == OrderScheme::staircase)
+        result.update({{"down", down},
+                       {"up", up},
+                       {"reversals", reversals},
+                       {"trials", trials},
+                       {"answer", answer}});
+    return result;
+}
+
 json toJson(const Question& question) {
     const auto& [name, kind, text, options, images, unsure, lowest, least, most, low, high,
                  optional, place] = question;
@@ -131,6 +161,7 @@ json toJson(const Trial& trial) {
 // Conditions are kept by their ids, because pictures do not depend on their order.
 struct SplitConditions {
     json stimuli = json::object(), simulated = json::object(), order = json::array();
+    json correct = json::object();                   // where there is a right answer
     std::set<std::string> views, levels, techniques; // used
 };
 
@@ -146,11 +177,13 @@ void addRoles(json& condition, const std::vector<Role>& roles) {
 SplitConditions split(const std::vector<Condition>& conditions) {
     SplitConditions result;
     for (const Condition& condition : conditions) {
-        const auto& [id, view, level, hypothesis, roles, simulated, place] = condition;
+        const auto& [id, view, level, hypothesis, roles, simulated, correct, place] = condition;
         result.stimuli[id] = {{"scene", view}, {"level", level}, {"hypothesis", hypothesis}};
         addRoles(result.stimuli[id], roles);
         result.simulated[id] = {{"simulatedPreference", simulated.chooseB}};
         result.order.push_back(id);
+        if (!correct.empty())
+            result.correct[id] = correct;
         result.views.insert(view);
         result.levels.insert(level);
         for (const Role& role : roles)
@@ -174,7 +207,6 @@ struct Parts {
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
                  conditions, trial, ordering, words, simulation, path, sha256] = protocol;
-    const auto& [scheme, participants] = ordering;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -184,15 +216,15 @@ Parts split(const Protocol& protocol) {
         {"image", {{"width", width}, {"height", height}, {"antialiasing", antialiasing}}},
         {"normals", normalsNames()[static_cast<std::size_t>(normals)]},
         {"conditions", parts.stimuli}};
-    static_assert(static_cast<int>(OrderScheme::thesis) == 0); // the only one so far
-    (void)scheme;
     result.procedure = {{"trial", toJson(trial)},
-                        {"ordering", {{"scheme", "thesis"}}},
+                        {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};
+    if (!parts.correct.empty())
+        result.procedure["correct answers"] = parts.correct;
     result.texts = {{"name", name},
                     {"title", title},
                     {"texts", toJson(words)},
-                    {"ordering", {{"participants", participants}}},
+                    {"ordering", {{"participants", ordering.participants}}},
                     {"simulation",
                      {{"positionBias", positionBias},
                       {"view", toJson(viewTime)},

@@ -195,6 +195,7 @@ Condition parseCondition(TomlTable table, const Protocol& protocol) {
     condition.hypothesis = table.text("hypothesis", "-");
     condition.simulated.chooseB =
         table.number("simulatedPreference", 0, 1, condition.simulated.chooseB);
+    condition.correct = table.text("correct", condition.correct);
     parseRoles(table, condition, protocol);
     const char* const given = table.has("pair") ? "pair" : "roles";
     const Place place = table.placeOf(*table.node(given), table.pathOf(given));
@@ -215,12 +216,18 @@ void parseConditions(TomlTable& root, Protocol& protocol) {
     }
 }
 
-Ordering parseOrdering(TomlTable table) {
-    Ordering ordering;
-    table.choice("scheme", {"thesis"}, 0);
-    ordering.participants = table.integer("participants", 1, 100000, ordering.participants);
-    table.finish();
-    return ordering;
+std::vector<ConditionLabels> labelsOf(const std::vector<Condition>& conditions) {
+    std::vector<ConditionLabels> labels;
+    for (const Condition& one : conditions)
+        labels.push_back({one.id, one.view, one.level, one.correct});
+    return labels;
+}
+
+std::vector<Question> questionsOf(const std::vector<Phase>& phases) {
+    std::vector<Question> questions;
+    for (const Phase& phase : phases)
+        questions.insert(questions.end(), phase.questions.begin(), phase.questions.end());
+    return questions;
 }
 
 // Braces around anything but the name of a number are a mistake in spelling.
@@ -298,7 +305,8 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
         protocol.trial = parseTrial(std::move(*trial));
     parseConditions(root, protocol);
     if (auto ordering = root.table("ordering"))
-        protocol.ordering = parseOrdering(std::move(*ordering));
+        protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
+                                          questionsOf(phasesOf(protocol.trial)));
     protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"),
                                 textsOf(phasesOf(protocol.trial)));
     if (auto simulation = root.table("simulation"))
@@ -329,6 +337,7 @@ std::span<const TextKey> textKeys() {
         {"leaveNote", &Texts::leaveNote},
         {"stay", &Texts::stay},
         {"end", &Texts::end},
+        {"rest", &Texts::rest},
         {"id", &Texts::id},
         {"idNote", &Texts::idNote},
         {"idMalformed", &Texts::idMalformed},

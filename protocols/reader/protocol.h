@@ -1,5 +1,6 @@
 #pragma once
 
+#include "protocols/reader/ordering.h"
 #include "protocols/reader/study.h"
 #include "protocols/reader/trial.h"
 
@@ -38,14 +39,8 @@ struct Condition {
     std::string hypothesis;
     std::vector<Role> roles; // sorted by name; those of a pair are a and b
     SimulatedChoice simulated;
-    Place place;
-};
-
-enum class OrderScheme { thesis };
-
-struct Ordering {
-    OrderScheme scheme = OrderScheme::thesis;
-    int participants = 28; // planned; what --simulate runs when no number is given
+    std::string correct = {}; // the right answer; "" where there is none
+    Place place = {};
 };
 
 // Everything that participants read, UTF-8. A study says what it asks; the rest is English unless
@@ -61,6 +56,7 @@ struct Texts {
     std::string unfocused = "The keyboard is elsewhere: click here to go on";
     std::string leave = "End the session?", leaveNote = "Answers given so far are kept.";
     std::string stay = "Continue", end = "End";
+    std::string rest = "Take a break. Press the space bar to go on.";
     std::string id = "Type the participant's pseudonym and press Enter.";
     std::string idNote = "Letters and digits. Escape ends the program.";
     std::string idMalformed = "A pseudonym is 1 to 32 letters (a-z) and digits.";

@@ -35,6 +35,7 @@ class HastyObserver : public Observer {
         clock_ += wait ? patience_ : 1e-4;
         return press(trial_->screen() == test::question ? gl::Key::two : gl::Key::space);
     }
+    bool rest() override { return true; }
     void thank() override {}
 
   private:

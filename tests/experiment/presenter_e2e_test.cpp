@@ -425,7 +425,7 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
                    "anyKey = \"Weiter mit jeder Taste.\"\nloading = \"Bilder werden geladen.\"\n"
                    "unfocused = \"Bitte hier klicken\"\nleave = \"Abbrechen?\"\n"
                    "leaveNote = \"Antworten bleiben erhalten.\"\nstay = \"Weiter\"\n"
-                   "end = \"Abbrechen\"\nid = \"Pseudonym, dann Eingabe\"\n"
+                   "end = \"Abbrechen\"\nrest = \"Pause\"\nid = \"Pseudonym, dann Eingabe\"\n"
                    "enter = \"Eingabe\"\ndone = \"Fertig\"\nbetween = \"Hinauf und hinunter.\"\n"
                    "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"});
     for (const TextKey& key : textKeys()) {

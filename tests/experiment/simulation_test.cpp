@@ -18,6 +18,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 namespace obscura {
 namespace {
@@ -107,6 +108,60 @@ TEST_F(SimulationTest, RowsAreWholeAndMarked) {
         EXPECT_EQ(row.paramsA, "{\"radius\":0.5,\"samples\":24.0}");
     }
     EXPECT_THAT(test::psychDsFaults(folder.path() / "data" / "tiny-study"), IsEmpty());
+}
+
+// Everything that comes between main trials, and repeats, in the rows; of breaks there are none.
+TEST_F(SimulationTest, KindsAndRepeatsAreInTheRows) {
+    const Study tiny = study({.ordering = "scheme = \"williams\"\nrepeats = 2\nbreakEvery = 3\n"
+                                          "practice = [\"c6\"]\ncatch = [\"c7\"]\ncatchEvery = 5"});
+    const auto rows = simulate(tiny, folder.path() / "data", 1, 1);
+    std::string kinds, repeats;
+    std::vector<std::string> order;
+    for (const Response& row : rows) {
+        kinds += row.trialKind[0];
+        repeats += std::to_string(row.repeatIndex);
+        order.push_back(row.conditionId);
+        EXPECT_EQ(row.trialIndex, static_cast<int>(order.size()));
+    }
+    EXPECT_EQ(kinds, "pmmmmmcmmmmm");
+    EXPECT_EQ(repeats, "111111122222");
+    EXPECT_EQ(order.at(0), "c6");
+    EXPECT_EQ(order.at(6), "c7");
+    for (std::size_t i = 1; i <= 5; ++i) {
+        const auto again = std::find(order.begin() + 7, order.end(), order[i]);
+        ASSERT_NE(again, order.end());
+        EXPECT_NE(rows[i].firstIs, rows[static_cast<std::size_t>(again - order.begin())].firstIs);
+    }
+    const DataFolder data(folder.path() / "data", tiny.protocol);
+    const auto sidecar = nlohmann::json::parse(readFile(data.sidecar({"S01", 1, true})));
+    EXPECT_EQ(sidecar["order"].get<std::vector<std::string>>(), order);
+    EXPECT_THAT(test::psychDsFaults(folder.path() / "data" / "tiny-study"), IsEmpty());
+}
+
+// Condition c7 is always answered right, c3 mostly wrong: who climbs to c3 is led back.
+TEST_F(SimulationTest, StaircasesFollowTheAnswersInTheRows) {
+    const Study tiny = study({.ordering = "scheme = \"staircase\"\nreversals = 4\ntrials = 40",
+                              .conditions = "correct = \"b\""});
+    const auto rows = simulate(tiny, folder.path() / "data", 4, 1);
+    std::map<std::string, std::vector<Response>> sessions;
+    for (const Response& row : rows)
+        sessions[row.participantId].push_back(row);
+    ASSERT_EQ(sessions.size(), 4u);
+    for (const auto& [id, session] : sessions) {
+        int level = 0, right = 0;
+        for (const Response& row : session) {
+            EXPECT_EQ(row.conditionId, fmt::format("c{}", level + 1)) << id;
+            right = row.choseB ? right + 1 : 0;
+            if (!row.choseB)
+                level = std::max(level - 1, 0);
+            if (right == 2) {
+                level = std::min(level + 1, 6);
+                right = 0;
+            }
+        }
+        EXPECT_GT(session.size(), 7u);
+        EXPECT_LE(session.size(), 40u);
+    }
 }
 
 // Share of b per condition within 4.5 standard errors of the stated model; with seven conditions a

@@ -30,7 +30,8 @@ const std::vector<double>& tinyPreferences() {
 namespace {
 
 std::string protocolText(const TinyOptions& options) {
-    std::string text = fmt::format(R"(name = "tiny-study"
+    std::string text =
+        fmt::format(R"(name = "tiny-study"
 title = "Noise, for tests"
 seed = 20100
 [image]
@@ -52,6 +53,7 @@ samples = 24
 mask = {}
 minimumView = {}
 [ordering]
+{}
 participants = 3
 [texts]
 instructions = "Two images follow, one after the other."
@@ -65,12 +67,12 @@ thanks = "Thank you."
 positionBias = {}
 {}
 )",
-                                   options.width, options.height, options.mask, options.minimumView,
-                                   options.texts, options.positionBias, options.simulation);
+                    options.width, options.height, options.mask, options.minimumView,
+                    options.ordering, options.texts, options.positionBias, options.simulation);
     for (std::size_t i = 0; i < tinyPreferences().size(); ++i)
         text += fmt::format("[[conditions]]\nid = \"c{}\"\nscene = \"box\"\nlevel = \"low\"\n"
-                            "pair = [\"none\", \"crytek24\"]\nsimulatedPreference = {}\n",
-                            i + 1, tinyPreferences()[i]);
+                            "pair = [\"none\", \"crytek24\"]\nsimulatedPreference = {}\n{}\n",
+                            i + 1, tinyPreferences()[i], options.conditions);
     return text;
 }
 

@@ -32,9 +32,11 @@ struct TinyOptions {
     double mask = 0.3; // seconds
     int width = 320, height = 180;
     double positionBias = 0;
-    std::string simulation = {}; // further lines of [simulation]
-    std::string texts = {};      // and of [texts]
-    double minimumView = 0;      // seconds
+    std::string simulation = {};                  // further lines of [simulation]
+    std::string texts = {};                       // and of [texts]
+    double minimumView = 0;                       // seconds
+    std::string ordering = "scheme = \"thesis\""; // lines of [ordering]
+    std::string conditions = {};                  // further lines of each of [[conditions]]
 };
 
 // Simulated preference for member b of each condition.
