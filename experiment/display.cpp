@@ -22,8 +22,9 @@ constexpr int patchShare = 12; // of the screen's height
 } // namespace
 
 Display::Display(const DisplayOptions& options, const Curtain& curtain)
-    : window_(options.window), grey_(options.grey), photodiode_(options.photodiode),
-      windowed_(options.window.windowed.has_value()), priority_(askForPriority()) {
+    : priority_(askForPriority()), window_(options.window), grey_(options.grey),
+      photodiode_(options.photodiode), windowed_(options.window.windowed.has_value()) {
+    keepPriorityFromNewThreads();
     const Image8 image = curtain(window_.width(), window_.height());
     const gl::Picture picture(image.width, image.height, image.channels, image.pixels);
     for (int i = 0; i < warmUpFlips; ++i)

@@ -56,11 +56,11 @@ class Display {
     std::vector<double> burst(const gl::Picture& curtain);
     void draw(const gl::Picture* picture, bool stimulus);
 
+    Priority priority_; // asked for before the window is made, for the driver's threads inherit it
     gl::Window window_;
     int grey_;
     bool photodiode_;
     bool windowed_;
-    Priority priority_;
     DisplayCheck check_;
     Refresh refresh_;
     std::optional<Ticks> ticks_; // in place of vertical blanks

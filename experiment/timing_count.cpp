@@ -10,22 +10,25 @@ namespace {
 // Bridges et al. 2020 and PsychoPy: an interval above 1.2 refreshes is a missed one.
 constexpr double missedInterval = 1.2;
 
-// Stamps are late rather than early. That of the onset may be late, too, by less than this.
+// A stamp is late rather than early. That of the onset may be late as well, by less than this.
 constexpr double tolerance = 0.25; // refreshes
 
 } // namespace
 
 void RefreshCount::add(double time) {
+    const double before = behind_;
     note(time);
-    behindBefore_ = behind_;
-    behind_ = (time - onset_) * hz_ - swaps_;
+    const double sure = std::floor(std::min(before, behind_) + tolerance);
+    passed_ = static_cast<int>(std::max(0.0, sure));
     ++swaps_;
 }
 
-// No later swap will confirm that one was late.
+// Nothing is decided by it any more: to the nearest refresh. A display that takes the first swaps
+// ahead of the screen stamps them too early, so swaps still are refreshes where less time has
+// passed.
 void RefreshCount::end(double time) {
     note(time);
-    behind_ = behindBefore_ = (time - onset_) * hz_ - swaps_;
+    passed_ = static_cast<int>(std::max(0L, std::lround(behind_)));
 }
 
 void RefreshCount::note(double time) {
@@ -36,11 +39,9 @@ void RefreshCount::note(double time) {
         missed_ += intervals_.back() * hz_ > missedInterval;
     }
     last_ = time;
+    behind_ = (time - onset_) * hz_ - swaps_;
 }
 
-int RefreshCount::refreshes() const {
-    const double passed = std::floor(std::min(behind_, behindBefore_) + tolerance);
-    return swaps_ + static_cast<int>(std::max(0.0, passed));
-}
+int RefreshCount::refreshes() const { return swaps_ + passed_; }
 
 } // namespace obscura

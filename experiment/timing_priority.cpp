@@ -17,10 +17,14 @@ namespace {
 std::string reason() { return std::strerror(errno); }
 
 // The lowest real-time priority already goes before every usual thread.
-std::string askForScheduling() {
+bool setRealTime(int flags) {
     sched_param parameters{};
     parameters.sched_priority = 1;
-    if (::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0)
+    return ::sched_setscheduler(0, SCHED_FIFO | flags, &parameters) == 0;
+}
+
+std::string askForScheduling() {
+    if (setRealTime(0))
         return "real-time (SCHED_FIFO, 1)";
     return fmt::format("usual: real-time priority is refused ({}; ulimit -r)", reason());
 }
@@ -43,6 +47,11 @@ std::string lockMemory() {
 Priority askForPriority() {
     ::prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); // nanoseconds; usually 50000
     return {askForScheduling(), lockMemory()};
+}
+
+void keepPriorityFromNewThreads() {
+    if (::sched_getscheduler(0) == SCHED_FIFO)
+        setRealTime(SCHED_RESET_ON_FORK);
 }
 
 } // namespace obscura

@@ -10,9 +10,12 @@ struct Priority {
     std::string memory;     // "locked", or "not locked: " and why
 };
 
-// Asks that the calling thread goes before all usual ones, that its timers are exact, and that no
-// memory of the program, now or later, is swapped out. Threads that it starts get none of that but
-// the last. What is not permitted is not needed: the program goes on.
+// Asks that the calling thread, and those that it starts, go before all usual ones, that its timers
+// are exact, and that no memory of the program, now or later, is swapped out. What is not permitted
+// is not needed: the program goes on.
 Priority askForPriority();
+
+// From now on, threads that the calling one starts are usual ones.
+void keepPriorityFromNewThreads();
 
 } // namespace obscura

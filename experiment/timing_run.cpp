@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <thread>
@@ -51,9 +52,10 @@ std::optional<MaskTiming> holdMask(Display& display, const TimingRun& run,
 } // namespace
 
 int TimingRun::wrong() const {
-    return static_cast<int>(std::count_if(masks.begin(), masks.end(), [&](const MaskTiming& mask) {
-        return mask.refreshes != planned;
-    }));
+    const auto off = [&](const MaskTiming& mask) {
+        return mask.refreshes != planned || std::abs(mask.seconds * refresh.hz - planned) >= 0.5;
+    };
+    return static_cast<int>(std::count_if(masks.begin(), masks.end(), off));
 }
 
 int TimingRun::missed() const {

@@ -23,7 +23,8 @@ struct TimingRun {
     std::vector<MaskTiming> masks;
     std::string ended; // why before the last mask; "" when it was reached
 
-    int wrong() const; // masks of another number of refreshes than planned
+    // Masks of another number of refreshes than planned, or off by half of one or more.
+    int wrong() const;
     int missed() const;
 };
 
