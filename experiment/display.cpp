@@ -58,6 +58,7 @@ bool Display::measureBy(Stamp stamp, const gl::Picture& curtain) {
     check_.reportedHz = window_.monitor().refreshHz;
     refresh_ = judgeRefresh(intervals, check_.reportedHz);
     check_.flips = summarise(intervals, refresh_.hz);
+    check_.unsynchronised = refresh_.doubt;
     if (refresh_.source == "none" ||
         (stamp == Stamp::blanks && !plausible(onsets, now, check_.reportedHz)))
         return false;
@@ -96,8 +97,8 @@ std::vector<double> Display::burst(const gl::Picture& curtain) {
 }
 
 std::string Display::inWords() const {
-    return fmt::format("{}; scheduling: {}; memory: {}", obscura::inWords(check_, refresh_),
-                       priority_.scheduling, priority_.memory);
+    return fmt::format("{}; timestamps: {}; scheduling: {}; memory: {}", obscura::inWords(check_),
+                       refresh_.source, priority_.scheduling, priority_.memory);
 }
 
 void Display::describe(nlohmann::ordered_json& sidecar) const {
@@ -115,7 +116,7 @@ void Display::describe(nlohmann::ordered_json& sidecar) const {
         {"gl_vendor", driver.vendor},
         {"gl_renderer", driver.renderer},
         {"gl_version", driver.version},
-        {"check", spell(check_, refresh_)},
+        {"check", spell(check_)},
         {"scheduling", priority_.scheduling},
         {"memory", priority_.memory},
     };

@@ -30,8 +30,8 @@ std::string rateOf(const DisplayCheck& check) {
     return *check.variable ? "was asked for by the driver; forbidden" : "not asked for";
 }
 
-std::string vsyncOf(const Refresh& refresh) {
-    return refresh.source == "none" ? "not honoured: " + refresh.doubt : "honoured";
+std::string vsyncOf(const DisplayCheck& check) {
+    return check.unsynchronised.empty() ? "honoured" : "not honoured: " + check.unsynchronised;
 }
 
 int percent(double scale) { return static_cast<int>(std::lround(100 * scale)); }
@@ -75,13 +75,13 @@ std::string objectionTo(const DisplayCheck& check) {
     return "";
 }
 
-nlohmann::ordered_json spell(const DisplayCheck& check, const Refresh& refresh) {
+nlohmann::ordered_json spell(const DisplayCheck& check) {
     return {{"flips", check.flips.count},
             {"mean_ms", 1000 * check.flips.mean},
             {"deviation_ms", 1000 * check.flips.deviation},
             {"least_ms", 1000 * check.flips.least},
             {"most_ms", 1000 * check.flips.most},
-            {"vsync", vsyncOf(refresh)},
+            {"vsync", vsyncOf(check)},
             {"buffering", bufferingOf(check)},
             {"compositor", compositorOf(check)},
             {"content_scale", check.contentScale},
@@ -89,14 +89,13 @@ nlohmann::ordered_json spell(const DisplayCheck& check, const Refresh& refresh) 
             {"variable_refresh", rateOf(check)}};
 }
 
-std::string inWords(const DisplayCheck& check, const Refresh& refresh) {
+std::string inWords(const DisplayCheck& check) {
     return fmt::format(
         "{} swaps took {:.3f} ms each (sd {:.3f}; the mode says {} Hz); v-sync {}; buffering: {}; "
-        "compositor: {}; scale {} %; {} bits a pixel; variable refresh: {}; timestamps: {}",
+        "compositor: {}; scale {} %; {} bits a pixel; variable refresh: {}",
         check.flips.count, 1000 * check.flips.mean, 1000 * check.flips.deviation, check.reportedHz,
-        vsyncOf(refresh), bufferingOf(check), compositorOf(check), percent(check.contentScale),
-        check.colourBits[0] + check.colourBits[1] + check.colourBits[2], rateOf(check),
-        refresh.source);
+        vsyncOf(check), bufferingOf(check), compositorOf(check), percent(check.contentScale),
+        check.colourBits[0] + check.colourBits[1] + check.colourBits[2], rateOf(check));
 }
 
 } // namespace obscura

@@ -15,6 +15,7 @@ namespace obscura {
 // What the start-up check found out about a display.
 struct DisplayCheck {
     IntervalSummary flips;           // of the intervals that its rate was taken from
+    std::string unsynchronised;      // why swaps seem to follow no vertical blank; "" if they do
     int reportedHz = 0;              // of the monitor's mode
     std::optional<int> queued;       // swaps that it takes ahead of the screen; nothing: not known
     std::optional<bool> compositor;  // whether one runs; nothing: not known
@@ -38,7 +39,7 @@ bool plausible(const std::vector<gl::Onset>& onsets, const std::vector<double>& 
 std::string objectionTo(const DisplayCheck& check);
 
 // For the session file, and in a line for the experimenter.
-nlohmann::ordered_json spell(const DisplayCheck& check, const Refresh& refresh);
-std::string inWords(const DisplayCheck& check, const Refresh& refresh);
+nlohmann::ordered_json spell(const DisplayCheck& check);
+std::string inWords(const DisplayCheck& check);
 
 } // namespace obscura

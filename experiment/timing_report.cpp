@@ -104,9 +104,8 @@ std::string inWords(const TimingRun& run) {
                               run.masks.size(), run.planned, run.refresh.hz, run.refresh.source,
                               run.missed()) +
                   histogram(run);
-    return run.ended.empty()
-               ? text
-               : text + fmt::format("It was {} before the last mask.\n", run.ended);
+    return run.ended.empty() ? text
+                             : text + fmt::format("It was {} before the last mask.\n", run.ended);
 }
 
 nlohmann::ordered_json spell(const TimingRun& run) {
