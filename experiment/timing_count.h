@@ -10,7 +10,10 @@ namespace obscura {
 // counting a refresh that was none would end the mask too early.
 class RefreshCount {
   public:
-    explicit RefreshCount(double hz) : hz_(hz) {}
+    // No more than `planned` swaps and their end are added without allocating.
+    RefreshCount(double hz, int planned) : hz_(hz) {
+        intervals_.reserve(static_cast<std::size_t>(planned));
+    }
 
     void add(double time); // a swap of the mask came on; the first is its onset. Seconds
     void end(double time); // what follows the mask came on

@@ -29,7 +29,7 @@ gl::Picture noise(const gl::Window& window, std::string_view name) {
 }
 
 bool escapes(gl::Window& window) {
-    const std::vector<gl::Input> inputs = window.poll();
+    const std::vector<gl::Input>& inputs = window.poll();
     return std::any_of(inputs.begin(), inputs.end(), [](const gl::Input& input) {
         return input.kind == gl::Input::Kind::close ||
                (input.kind == gl::Input::Kind::press && input.key == gl::Key::escape);
@@ -39,7 +39,7 @@ bool escapes(gl::Window& window) {
 // Nothing when Escape was pressed.
 std::optional<MaskTiming> holdMask(Display& display, const TimingRun& run,
                                    const gl::Picture& after) {
-    RefreshCount count(run.refresh.hz);
+    RefreshCount count(run.refresh.hz, run.planned);
     while (count.refreshes() < run.planned) {
         count.add(display.show(nullptr));
         if (escapes(display.window()))

@@ -95,6 +95,9 @@ std::vector<Monitor> monitors() {
 }
 
 Window::Window(const WindowOptions& options) : interrupt_(options.interrupt) {
+    constexpr std::size_t expected = 256; // inputs between two calls of poll()
+    inputs_.reserve(expected);
+    taken_.reserve(expected);
     open(options);
     listen();
     glfwMakeContextCurrent(window_.get());
@@ -251,17 +254,24 @@ Onset Window::awaitOnset() const {
     return {now()};
 }
 
-std::vector<Input> Window::poll() {
+const std::vector<Input>& Window::poll() {
     glfwPollEvents();
     interrupt_();
-    return std::exchange(inputs_, {});
+    return take();
 }
 
-std::vector<Input> Window::wait() {
+const std::vector<Input>& Window::wait() {
     constexpr double interval = 0.1; // seconds between calls of interrupt_
     for (interrupt_(); inputs_.empty(); interrupt_())
         glfwWaitEventsTimeout(interval);
-    return std::exchange(inputs_, {});
+    return take();
+}
+
+// The memory of both lists is used again.
+const std::vector<Input>& Window::take() {
+    taken_.clear();
+    std::swap(inputs_, taken_);
+    return taken_;
 }
 
 void Window::showCursor(bool visible) {

@@ -84,8 +84,10 @@ class Window {
     // with a vertical blank, after it.
     Onset swap();
 
-    std::vector<Input> poll(); // what has arrived, without waiting
-    std::vector<Input> wait(); // sleeps until something arrives
+    // What has arrived, without waiting or allocating; valid until the next call.
+    const std::vector<Input>& poll();
+    // The same, but sleeps until something arrives.
+    const std::vector<Input>& wait();
     void showCursor(bool visible);
     bool focused() const; // whether the keyboard is ours
     void setTitle(const std::string& title);
@@ -106,6 +108,7 @@ class Window {
     void open(const WindowOptions& options);
     void listen();
     Input stamped(Input::Kind kind) const;
+    const std::vector<Input>& take();
     Onset awaitOnset() const;
 
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -113,7 +116,7 @@ class Window {
     Monitor monitor_;
     std::unique_ptr<GLFWwindow, Destroy> window_;
     int width_ = 0, height_ = 0;
-    std::vector<Input> inputs_;
+    std::vector<Input> inputs_, taken_;
     void (*interrupt_)();
     Stamp stamp_ = Stamp::finish;
 };

@@ -98,7 +98,7 @@ TEST_F(TimingTest, ASignalEndsItWithWhatWasMeasured) {
 
 TEST_F(TimingTest, EscapeEndsItDuringTheFirstMask) {
     Program program = start({"--masks", "1", "--seconds", "3600"});
-    seesMask(program);
+    program.await("the window", [&] { return allGrey() && desktop.hasKeyboard(); });
     desktop.tap(XK_Escape);
     EXPECT_EQ(program.wait(), 0);
     EXPECT_EQ(result()["masks"], 0);

@@ -28,7 +28,7 @@ struct Screen1Hz {
     int shown = 0;                                   // blanks for which the mask really was
 
     RefreshCount hold() {
-        RefreshCount count(1);
+        RefreshCount count(1, planned);
         int blank = 1000;
         const int onset = blank;
         for (std::size_t swap = 0; count.refreshes() < planned; ++swap, ++blank) {
@@ -104,7 +104,7 @@ TEST(RefreshCount, ARefreshLostAtTheEndIsSaid) {
     EXPECT_GT(count.refreshes(), planned);
     EXPECT_EQ(count.missed(), 1);
 
-    RefreshCount last(60); // the image after it comes late
+    RefreshCount last(60, 2); // the image after it comes late
     last.add(0);
     last.add(1 / 60.0);
     last.end(3 / 60.0);
@@ -114,7 +114,7 @@ TEST(RefreshCount, ARefreshLostAtTheEndIsSaid) {
 
 // A driver that takes two swaps ahead of the screen returns from the first ones at once.
 TEST(RefreshCount, SwapsTakenAheadAreRefreshes) {
-    RefreshCount count(1);
+    RefreshCount count(1, planned);
     for (const double time : {5.0, 5.01, 5.02, 6.0, 7.0})
         count.add(time);
     EXPECT_EQ(count.refreshes(), 5);
