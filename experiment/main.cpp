@@ -351,11 +351,12 @@ int run(int argc, char** argv) {
     if (app.got_subcommand("ledger"))
         return editLedger(arguments);
     heedSignals();
-    if (app.got_subcommand("timing"))
-        return timing(arguments);
-    if (arguments.protocol.empty() || arguments.stimuli.empty())
+    const bool times = app.got_subcommand("timing");
+    if (!times && (arguments.protocol.empty() || arguments.stimuli.empty()))
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
+        if (times)
+            return timing(arguments);
         const Study study = openStudy(arguments.protocol, arguments.stimuli);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
     } catch (const EndedBySignal& ended) {
