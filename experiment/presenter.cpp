@@ -177,7 +177,7 @@ double Presenter::showImages(std::span<const Placed> images, int grey) {
     images_ = images;
     grey_ = grey;
     display_.window().showCursor(false);
-    return display_.show(images_, grey_);
+    return display_.show(images_, grey_, !images_.empty());
 }
 
 // Images beside each other in the middle of the screen, or all in the same place where they are
@@ -217,7 +217,7 @@ std::vector<gl::Input> Presenter::inputs() {
     if (uncovered && sheet_)
         showSheet(*sheet_);
     else if (uncovered)
-        display_.show(images_, grey_);
+        display_.show(images_, grey_, !images_.empty());
     return inputs;
 }
 
