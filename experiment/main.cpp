@@ -7,6 +7,7 @@
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
 #include "experiment/presenter.h"
+#include "experiment/recorder.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
 #include "experiment/timing_report.h"
@@ -253,14 +254,20 @@ std::string warning(const Arguments& arguments, const Display& display) {
     return arguments.rehearse ? "Rehearsal: answers do not count" : "";
 }
 
-void reportOrphans(const DataFolder& folder) {
-    for (const SlotRecord& record : Ledger(folder.ledger()).records())
-        if (isOrphan(record))
-            fmt::print(
-                stderr,
-                "obscura-experiment: the session of {} broke off; its slot {} stays reserved "
-                "until obscura-experiment ledger --void {}\n",
-                record.session.participant, record.slot, record.slot);
+// Of sessions whose process has died: what their journals have is written into their tables, and
+// the experimenter is told.
+void mendOrphans(const DataFolder& folder) {
+    for (const SlotRecord& record : Ledger(folder.ledger()).records()) {
+        if (!isOrphan(record))
+            continue;
+        if (fs::exists(folder.journal(record.session)))
+            restoreTables(folder, record.session);
+        fmt::print(
+            stderr,
+            "obscura-experiment: the session of {} broke off; what was answered is kept. Its "
+            "slot {} stays reserved until obscura-experiment ledger --void {}\n",
+            record.session.participant, record.slot, record.slot);
+    }
 }
 
 int present(const Arguments& arguments, const Study& study) {
@@ -282,7 +289,7 @@ int present(const Arguments& arguments, const Study& study) {
                    "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
     } else {
         checkFolder(folder, study);
-        reportOrphans(folder);
+        mendOrphans(folder);
     }
 
     Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
