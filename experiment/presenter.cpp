@@ -355,6 +355,7 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
 
 void Presenter::prepare(const Upcoming& trial) {
     trial_ = trial;
+    drawn_ = {};
     for (std::size_t i = 0; i < phases_.size(); ++i) {
         const Phase& phase = phases_[i];
         Prepared& prepared = prepared_[i];
@@ -378,9 +379,12 @@ double Presenter::show(const TrialMachine& trial) {
     const auto index = static_cast<std::size_t>(trial.screen());
     const Phase& phase = phases_[index];
     const Prepared& prepared = prepared_[index];
-    if (const Form* form = trial.form(); form && form->touched()) {
-        answered_ = formSheet(*form, phase);
-        answered_.title = prepared.title;
+    if (const Form* form = trial.form(); form && form->changes() > 0) {
+        if (drawn_ != std::pair(index, form->changes())) { // not at every refresh of a timed page
+            answered_ = formSheet(*form, phase);
+            answered_.title = prepared.title;
+            drawn_ = {index, form->changes()};
+        }
         return showSheet(answered_);
     }
     if (prepared.sheet)
