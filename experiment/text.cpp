@@ -93,6 +93,8 @@ std::optional<Placed> trySize(cairo_t* cairo, const Page& page, const Palette& p
 // What a page says, in short and on one line.
 std::string opening(const Page& page) {
     std::string words = page.heading.empty() ? page.text : page.heading;
+    if (words.empty() && !page.parts.empty())
+        words = page.parts.front().label;
     std::replace_if(
         words.begin(), words.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return fmt::format("\"{:.60}\"", words);

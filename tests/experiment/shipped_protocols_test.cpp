@@ -1,49 +1,18 @@
-#include "base/csv.h"
-#include "base/files.h"
 #include "experiment/session.h"
-#include "protocols/reader/study_parts.h"
+#include "tests/experiment/shipped_studies.h"
 #include "tests/experiment/tiny_study.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
 
 namespace obscura {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Every protocol that is a study of people: those of techniques have no conditions.
-std::vector<fs::path> shippedStudies() {
-    std::vector<fs::path> studies;
-    for (const fs::directory_entry& entry : fs::directory_iterator(OBSCURA_SOURCE "/protocols")) {
-        const fs::path& path = entry.path();
-        if (path.extension() == ".toml" &&
-            parseToml(readFile(path), path.string()).contains("conditions"))
-            studies.push_back(path);
-    }
-    std::sort(studies.begin(), studies.end());
-    return studies;
-}
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<Row> rowsOf(const fs::path& path) {
-    const std::string text = readFile(path);
-    const std::vector<CsvRecord> records = splitCsv(text);
-    std::vector<Row> rows;
-    for (std::size_t i = 1; i < records.size(); ++i) {
-        const CsvRecord &record = records[i], &header = records.front();
-        EXPECT_EQ(faultOf(record, header.cells.size()), "") << path << ", line " << record.line;
-        Row row;
-        for (std::size_t cell = 0; cell < record.cells.size(); ++cell)
-            row[header.cells.at(cell)] = record.cells[cell];
-        rows.push_back(std::move(row));
-    }
-    return rows;
-}
+using test::Row;
+using test::rowsOf;
 
 class ShippedProtocol : public testing::TestWithParam<fs::path> {
   protected:
@@ -110,13 +79,8 @@ TEST_P(ShippedProtocol, SimulatedParticipantsReachTheEnd) {
     EXPECT_EQ(Ledger(data.ledger()).records().size(), 2u);
 }
 
-std::string nameOf(const testing::TestParamInfo<fs::path>& protocol) {
-    std::string name = protocol.param.stem().string();
-    std::replace(name.begin(), name.end(), '-', '_');
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Protocols, ShippedProtocol, testing::ValuesIn(shippedStudies()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Protocols, ShippedProtocol, testing::ValuesIn(test::shippedStudies()),
+                         test::caseName);
 
 } // namespace
 } // namespace obscura
