@@ -31,9 +31,10 @@ struct Page {
         std::optional<Field> field;
         std::optional<Slider> slider;
     };
-    // Room for images of one size, each with its number below.
+    // Room for images of one size, below each the name that answers have for it, or nothing.
     struct Pictures {
         int count = 0, width = 0, height = 0; // pixels
+        std::vector<std::string> names = {};
     };
 
     std::string warning; // a band across the top

@@ -67,10 +67,11 @@ std::vector<Page::Option> optionsOf(const Texts& texts, const Form& form, std::s
     for (int i = 1; i <= form.optionsOf(question); ++i) {
         Page::Option option{fmt::format("{}", i % 10), "", entry.option == i};
         const auto rank = std::find(entry.ranks.begin(), entry.ranks.end(), i);
-        if (question.kind == Question::Kind::rank && rank != entry.ranks.end()) {
-            option.label = fmt::format("{}.", rank - entry.ranks.begin() + 1);
-            option.chosen = true;
-        } else if (question.kind != Question::Kind::rank) {
+        if (question.kind == Question::Kind::rank) {
+            option.chosen = rank != entry.ranks.end();
+            option.label = option.chosen ? fmt::format("{}.", rank - entry.ranks.begin() + 1)
+                                         : "\u2012\u2008"; // a dash and a space, as wide as "1."
+        } else {
             const auto at = static_cast<std::size_t>(i - 1);
             option.label =
                 texts.at(at < question.options.size() ? question.options[at] : question.unsure);
@@ -110,6 +111,15 @@ Page::Part partOf(const Texts& texts, const Form& form, std::size_t index) {
 }
 
 } // namespace
+
+Page::Pictures roomFor(const Phase& phase, int width, int height) {
+    Page::Pictures pictures{static_cast<int>(phase.images.size()), width, height};
+    if (phase.images.size() > 1)
+        for (const std::string& image : phase.images)
+            pictures.names.push_back(image.find_first_not_of("0123456789") == image.npos ? image
+                                                                                         : "");
+    return pictures;
+}
 
 Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures) {
     Page page;

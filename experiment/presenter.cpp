@@ -144,9 +144,8 @@ Presenter::Sheet Presenter::formSheet(const Form& form, const Phase& phase) cons
     return result;
 }
 
-// What a page of questions leaves free for the images beside it.
 Page::Pictures Presenter::room(const Phase& phase) const {
-    return {static_cast<int>(phase.images.size()), study_.manifest.width, study_.manifest.height};
+    return roomFor(phase, study_.manifest.width, study_.manifest.height);
 }
 
 const gl::Picture& Presenter::picture(const std::string& image) const {

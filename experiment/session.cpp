@@ -21,7 +21,8 @@ namespace {
 
 // True when answered, false when the person left. A picture is shown, then all that arrived while
 // it was on its way is handled, and only then does the machine learn that it came on: so a key
-// pressed before it cannot be taken for an answer to it.
+// pressed before it cannot be taken for an answer to it. A picture that only replaces one of the
+// same screen has been on: what arrives meanwhile is an answer to it, and may lead to the next.
 bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int trial,
           const std::string& condition) {
     for (;;) {
@@ -32,10 +33,14 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
             machine.journalled();
             break;
         case TrialMachine::Next::present: {
+            const bool anew = machine.isOn();
             const double time = observer.show(machine);
+            if (anew)
+                machine.shown(time);
             for (const Event& event : observer.events(false))
                 machine.handle(event);
-            machine.shown(time);
+            if (!anew)
+                machine.shown(time);
             break;
         }
         case TrialMachine::Next::wait:

@@ -25,7 +25,7 @@ struct Placed {
 };
 
 void placePart(Setter& setter, const Page::Part& part, std::vector<Box>& options) {
-    setter.paragraph(part.label, 1, part.focus);
+    setter.title(part.label, 1, part.focus);
     setter.gap(part.label.empty() ? 0 : 0.5);
     if (part.field)
         options.push_back(setter.field(*part.field));
@@ -45,7 +45,7 @@ Placed place(Setter& setter, const Page& page, double top) {
         placed.pictures = setter.pictures(page.pictures);
         setter.gap(0.4);
     }
-    setter.paragraph(page.heading, 1.5, true);
+    setter.title(page.heading, 1.5, true);
     setter.gap(page.heading.empty() ? 0 : 0.9);
     setter.paragraph(page.text, 1);
     if (page.field) {
@@ -62,7 +62,7 @@ Placed place(Setter& setter, const Page& page, double top) {
     }
     placed.bottom = setter.y;
     if (!page.options.empty()) {
-        setter.gap(page.pictures.count > 0 ? 0.4 : 1.6);
+        setter.gap(page.pictures.count > 0 ? 0.7 : 1.6);
         const std::vector<Box> boxes = setter.options(page.options);
         placed.options.insert(placed.options.end(), boxes.begin(), boxes.end());
         placed.bottom = setter.y;
@@ -72,8 +72,9 @@ Placed place(Setter& setter, const Page& page, double top) {
 
 // Draws the page, or nothing when it does not fit with type of this size.
 std::optional<Placed> trySize(cairo_t* cairo, const Page& page, const Palette& palette, int width,
-                              int height, double em) {
+                              int height, double em, bool breaksWords) {
     Setter setter(cairo, palette, width, em);
+    setter.breaksWords = breaksWords;
     if (!page.warning.empty())
         setter.warning(page.warning);
     const double top = setter.y, margin = 1.2 * em;
@@ -92,6 +93,8 @@ std::optional<Placed> trySize(cairo_t* cairo, const Page& page, const Palette& p
 // What a page says, in short and on one line.
 std::string opening(const Page& page) {
     std::string words = page.heading.empty() ? page.text : page.heading;
+    if (words.empty() && !page.parts.empty())
+        words = page.parts.front().label;
     std::replace_if(
         words.begin(), words.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return fmt::format("\"{:.60}\"", words);
@@ -125,11 +128,13 @@ DrawnPage drawPage(const Page& page, int width, int height, int grey) {
     cairo_set_font_options(canvas.cairo(), fontOptions.get());
 
     const double largest = std::max(smallestType, std::min(height / 27.0, width / 40.0));
-    for (int percent = 100; percent >= 60; percent -= 5) {
-        const double em = std::max(smallestType, std::round(largest * percent / 100));
-        if (auto placed = trySize(canvas.cairo(), page, palette, width, height, em))
-            return {canvas.finish(), std::move(placed->options), std::move(placed->pictures)};
-    }
+    for (const bool breaksWords : {false, true}) // sooner small type than broken words
+        for (int percent = 100; percent >= 60; percent -= 5) {
+            const double em = std::max(smallestType, std::round(largest * percent / 100));
+            if (auto placed =
+                    trySize(canvas.cairo(), page, palette, width, height, em, breaksWords))
+                return {canvas.finish(), std::move(placed->options), std::move(placed->pictures)};
+        }
     throw Error(fmt::format("a text is too long for a screen of {}x{} pixels, even in small type: "
                             "{}; shorten it in the protocol, or take a larger screen",
                             width, height, opening(page)));

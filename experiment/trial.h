@@ -82,8 +82,11 @@ class TrialMachine {
     const TrialRecord& record() const { return record_; }
 
     void journalled() { journalled_ = true; }
+    // Whether screen() has been shown already, and is only to be shown anew.
+    bool isOn() const { return visible_ == screen_; }
     // screen() came on at `time`; a counted phase is shown anew at every refresh. Events that
-    // arrived before must have been handled before.
+    // arrived before it first came on must have been handled before; those that arrived while it
+    // was shown anew are handled afterwards, because they may lead to another screen.
     void shown(double time);
     void handle(const Event& event);
 

@@ -64,7 +64,7 @@ std::vector<Box> gridOf(const Page::Pictures& pictures, int width, int below) {
     return boxes;
 }
 
-double Setter::column() const { return std::min(measure * em_, 0.86 * width_); }
+double Setter::column(double size) const { return std::min(measure * size * em_, 0.86 * width_); }
 
 Layout Setter::lay(const std::string& text, double size, bool bold, double wrapAt) const {
     Layout layout = layOut(cairo_, text, size * em_, bold);
@@ -127,18 +127,29 @@ void Setter::warning(const std::string& text) {
     y = height;
 }
 
-// Centred as a block, its lines flush with the side from which they are read: a short line stands
-// over the options, a long text fills the column.
-void Setter::paragraph(const std::string& text, double size, bool bold) {
+void Setter::centred(const std::string& text, double size, bool bold, PangoAlignment alignment) {
     if (text.empty())
         return;
-    const Block lines = block(text, size, bold, column());
+    Layout layout = lay(text, size, bold, column(size));
+    pango_layout_set_alignment(layout.get(), alignment);
+    narrow(layout.get());
+    const Block lines = boxed(std::move(layout));
     if (drawing) {
         ink(palette_.ink);
         put(lines, (width_ - lines.width) / 2, y);
     }
     tooWide |= lines.width > width_;
     y += lines.height;
+}
+
+// Centred as a block, its lines flush with the side from which they are read: a short line stands
+// over the options, a long text fills the column.
+void Setter::paragraph(const std::string& text, double size, bool bold) {
+    centred(text, size, bold, PANGO_ALIGN_LEFT);
+}
+
+void Setter::title(const std::string& text, double size, bool bold) {
+    centred(text, size, bold, PANGO_ALIGN_CENTER);
 }
 
 void Setter::fill(double shade, double edge, double line) const {
@@ -205,10 +216,11 @@ Box Setter::slider(const Page::Slider& slider) {
 std::vector<Box> Setter::pictures(const Page::Pictures& pictures) {
     std::vector<Box> boxes = gridOf(pictures, static_cast<int>(width_), static_cast<int>(2 * em_));
     double bottom = y;
-    int number = 0;
-    for (Box& box : boxes) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        Box& box = boxes[i];
         box.y += static_cast<int>(y);
-        const Block label = block(std::to_string(++number), 1, true, width_);
+        const Block label =
+            block(i < pictures.names.size() ? pictures.names[i] : "", 1, true, width_);
         if (drawing) {
             ink(palette_.ink);
             put(label, box.x + (box.width - label.width) / 2, box.y + box.height + 0.3 * em_);
@@ -220,57 +232,93 @@ std::vector<Box> Setter::pictures(const Page::Pictures& pictures) {
     return boxes;
 }
 
-// A key's cap, and beside it what the key says; together no wider than `widest`, if that can be.
-Setter::Card Setter::card(const Page::Option& option, double widest) const {
-    constexpr double around = 1.6, inCap = 1, beside = 0.8; // em
+// A key's cap, and beside or below it what the key says; together no wider than `widest`, if that
+// can be.
+Setter::Card Setter::card(const Page::Option& option, double widest, bool stacked) const {
+    const double around = (stacked ? 1 : 1.6) * em_, inCap = em_, beside = 0.8 * em_;
     Card card;
     card.chosen = option.chosen;
-    card.key = block(option.key, 0.9, true, widest - (around + inCap) * em_);
-    card.width = std::max(card.key.width, em_) + (inCap + around) * em_;
-    if (!option.label.empty()) {
-        card.label = block(option.label, 1, false, widest - card.width - beside * em_);
-        card.width += card.label.width + beside * em_;
+    card.stacked = stacked;
+    card.key = block(option.key, 0.9, true, widest - around - inCap);
+    const double cap = std::max(card.key.width, em_) + inCap;
+    card.width = cap + around;
+    card.height = card.key.height + 1.8 * em_;
+    if (option.label.empty())
+        return card;
+    Layout label = lay(option.label, 1, false, widest - (stacked ? around : card.width + beside));
+    pango_layout_set_wrap(label.get(), breaksWords ? PANGO_WRAP_WORD_CHAR : PANGO_WRAP_WORD);
+    if (stacked)
+        pango_layout_set_alignment(label.get(), PANGO_ALIGN_CENTER);
+    narrow(label.get());
+    card.label = boxed(std::move(label));
+    if (stacked) {
+        card.width = std::max(cap, card.label.width) + around;
+        card.height = capHeight(card) + card.label.height + 1.7 * em_;
+    } else {
+        card.width += card.label.width + beside;
+        card.height = std::max(card.key.height, card.label.height) + 1.8 * em_;
     }
-    card.height = std::max(card.key.height, card.label.height) + 1.8 * em_;
     return card;
 }
 
 void Setter::drawCard(const Card& card, double x, double width) const {
-    const double writing = card.chosen ? palette_.paper : palette_.ink;
+    const double writing = card.chosen ? (palette_.ink < 0.5 ? 1 : 0) : palette_.ink;
     rounded(x, y, width, card.height, 0.4 * em_);
     fill(card.chosen ? palette_.ink : palette_.card, palette_.edge, card.chosen ? 4 : 2);
 
     const Block &key = card.key, &label = card.label;
-    const double capWidth = std::max(key.width, em_) + em_;
-    const double capHeight = key.height + 0.6 * em_;
-    const double left = std::round(x + (width - card.width) / 2 + 0.8 * em_);
-    const double middle = y + card.height / 2;
+    const double capWidth = std::max(key.width, em_) + em_, cap = capHeight(card);
+    const double centre = x + width / 2;
+    const double left =
+        std::round(card.stacked ? centre - capWidth / 2 : x + (width - card.width) / 2 + 0.8 * em_);
+    const double middle = card.stacked ? y + 0.6 * em_ + cap / 2 : y + card.height / 2;
     ink(writing);
     cairo_set_line_width(cairo_, 2);
     put(key, left + (capWidth - key.width) / 2, middle - key.height / 2);
     if (!label.layout) // the card itself is the key
         return;
-    rounded(left, middle - capHeight / 2, capWidth, capHeight, 0.25 * em_);
+    rounded(left, middle - cap / 2, capWidth, cap, 0.25 * em_);
     cairo_stroke(cairo_);
-    put(label, left + capWidth + 0.8 * em_, middle - label.height / 2);
+    if (card.stacked)
+        put(label, centre - label.width / 2, middle + cap / 2 + 0.5 * em_);
+    else
+        put(label, left + capWidth + 0.8 * em_, middle - label.height / 2);
+}
+
+std::vector<Setter::Card> Setter::cards(const std::vector<Page::Option>& options, double widest,
+                                        bool stacked) const {
+    std::vector<Card> cards;
+    for (const Page::Option& option : options)
+        cards.push_back(card(option, widest, stacked));
+    return cards;
 }
 
 // Side by side, of one size, centred: the first image's option is the left one, as its arrow key
-// is, whichever way the words run.
+// is, whichever way the words run. The labels of many options stand below their keys where they
+// would be broken beside them.
 std::vector<Box> Setter::options(const std::vector<Page::Option>& options) {
-    const double space = 1.6 * em_, count = static_cast<double>(options.size());
-    const double room = width_ - 2 * em_ - (count - 1) * space;
-    std::vector<Card> cards;
-    double width = 0, height = 0;
-    for (const Page::Option& option : options) {
-        cards.push_back(card(option, std::floor(room / count)));
-        width = std::max(width, cards.back().width);
-        height = std::max(height, cards.back().height);
+    constexpr std::size_t many = 4;
+    const double count = static_cast<double>(options.size());
+    double space = 1.6 * em_;
+    const auto widest = [&] {
+        return std::floor((width_ - 2 * em_ - (count - 1) * space) / count);
+    };
+    std::vector<Card> row = cards(options, widest(), false);
+    if (options.size() >= many && std::any_of(row.begin(), row.end(), [](const Card& card) {
+            return card.label.layout && pango_layout_get_line_count(card.label.layout.get()) > 1;
+        })) {
+        space = 0.6 * em_;
+        row = cards(options, widest(), true);
     }
-    tooWide |= count * width > room;
+    double width = 0, height = 0;
+    for (const Card& card : row) {
+        width = std::max(width, card.width);
+        height = std::max(height, card.height);
+    }
+    tooWide |= width > widest();
     double x = std::round((width_ - count * width - (count - 1) * space) / 2);
     std::vector<Box> boxes;
-    for (Card& card : cards) {
+    for (Card& card : row) {
         card.height = height;
         if (drawing)
             drawCard(card, x, width);

@@ -41,10 +41,12 @@ class Setter {
         : cairo_(cairo), palette_(palette), width_(width), em_(em) {}
 
     double y = 0;
-    bool tooWide = false; // something does not fit between the sides
+    bool tooWide = false;     // something does not fit between the sides
+    bool breaksWords = false; // where a card is too narrow for a word; otherwise that is too wide
 
     void warning(const std::string& text);
     void paragraph(const std::string& text, double size, bool bold = false);
+    void title(const std::string& text, double size, bool bold); // each line in the middle
     Box field(const Page::Field& field);
     Box slider(const Page::Slider& slider);
     std::vector<Box> pictures(const Page::Pictures& pictures);
@@ -63,7 +65,7 @@ class Setter {
     struct Card {
         Block key, label;
         double width = 0, height = 0;
-        bool chosen = false;
+        bool chosen = false, stacked = false; // stacked: the label stands below the key
     };
 
     Layout lay(const std::string& text, double size, bool bold, double wrapAt) const;
@@ -72,10 +74,14 @@ class Setter {
     void ink(double grey) const { cairo_set_source_rgb(cairo_, grey, grey, grey); }
     void rounded(double x, double top, double width, double height, double radius) const;
     void put(const Block& block, double left, double top) const;
-    Card card(const Page::Option& option, double widest) const;
+    void centred(const std::string& text, double size, bool bold, PangoAlignment lines);
+    Card card(const Page::Option& option, double widest, bool stacked) const;
+    std::vector<Card> cards(const std::vector<Page::Option>& options, double widest,
+                            bool stacked) const;
+    double capHeight(const Card& card) const { return card.key.height + 0.6 * em_; }
     void drawCard(const Card& card, double x, double width) const;
     void fill(double shade, double edge, double line) const;
-    double column() const; // the width of a text
+    double column(double size = 1) const; // the width of a text
 
     cairo_t* cairo_;
     const Palette& palette_;

@@ -8,9 +8,12 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace obscura {
 namespace {
 
+namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -26,26 +29,51 @@ class HastyObserver : public Observer {
     bool instruct() override { return true; }
     void prepare(const Upcoming&) override {}
     double show(const TrialMachine& trial) override {
-        trial_ = &trial;
+        shown_ = trial.screen();
         return clock_ += 1 / 60.0;
     }
     std::vector<Event> events(bool wait) override {
-        if (trial_->screen() == test::mask)
+        if (shown_ == test::mask)
             return {};
         clock_ += wait ? patience_ : 1e-4;
-        return press(trial_->screen() == test::question ? gl::Key::two : gl::Key::space);
+        return press(shown_ == test::question ? gl::Key::two : gl::Key::space);
     }
     bool rest() override { return true; }
     void thank() override {}
 
-  private:
+  protected:
     std::vector<Event> press(gl::Key key) const {
         return {{Event::Kind::press, clock_, key}, {Event::Kind::release, clock_, key}};
     }
 
+  private:
     double patience_;
-    const TrialMachine* trial_ = nullptr; // what it shows
+    Screen shown_ = 0;
     double clock_ = 0;
+};
+
+// A person who types faster than pages are drawn: each key arrives while the page that shows what
+// the one before did is on its way.
+class QuickObserver : public HastyObserver {
+  public:
+    QuickObserver() : HastyObserver(1) {}
+
+    double show(const TrialMachine& trial) override {
+        trial_ = &trial;
+        screens.push_back(trial.screen());
+        return HastyObserver::show(trial);
+    }
+    std::vector<Event> events(bool wait) override {
+        if (!trial_->form() || (!wait && !trial_->form()->touched()))
+            return {};
+        return press(trial_->form()->answered(static_cast<std::size_t>(trial_->form()->focus()))
+                         ? gl::Key::enter
+                         : gl::Key::two);
+    }
+    std::vector<Screen> screens;
+
+  private:
+    const TrialMachine* trial_ = nullptr;
 };
 
 class OrderOfEventsTest : public testing::Test {
@@ -86,6 +114,22 @@ TEST_F(OrderOfEventsTest, PressesBeforeTheMinimumViewAreJournalled) {
         EXPECT_GE(row.view2Ms, 500);
     }
     EXPECT_THAT(journal, HasSubstr("\"trial\":7,\"count\":4"));
+}
+
+// Two ratings, and then nothing more: what followed the last key was taken for shown, and the
+// machine ran over the end of its phases.
+TEST_F(OrderOfEventsTest, AnswersThatOutrunTheirPagesLeadToScreensThatAreShown) {
+    const fs::path protocol = OBSCURA_SOURCE "/protocols/kozlowski-kautz-2007.toml";
+    test::writeNoiseStimuli(readProtocol(protocol), folder.path() / "stimuli");
+    const Study study = openStudy(protocol, folder.path() / "stimuli");
+    const DataFolder data(folder.path() / "data", study.protocol);
+    QuickObserver observer;
+    ASSERT_TRUE(runSession(study, data, {"P01", 1, false}, observer));
+    EXPECT_EQ(std::count(observer.screens.begin(), observer.screens.end(), 0), 9 * 30);
+    const std::string answers = readFile(data.answers({"P01", 1, false}));
+    EXPECT_EQ(std::count(answers.begin(), answers.end(), '\n'), 1 + 9 * 2);
+    for (const Screen screen : observer.screens)
+        EXPECT_TRUE(screen == 0 || screen == 1) << screen;
 }
 
 } // namespace

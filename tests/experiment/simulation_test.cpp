@@ -105,7 +105,8 @@ TEST_F(SimulationTest, RowsAreWholeAndMarked) {
         EXPECT_EQ(row.techniqueB, "crytek24");
         EXPECT_EQ(row.stimFirst, row.conditionId + (row.firstIs == "a" ? "_a.png" : "_b.png"));
         EXPECT_EQ(row.sha256First, sha256File(folder.path() / "stimuli" / row.stimFirst));
-        EXPECT_EQ(row.paramsA, "{\"radius\":0.5,\"samples\":24.0}");
+        EXPECT_EQ(row.paramsA, "{\"radius\":0.5}");
+        EXPECT_EQ(row.paramsB, "{\"radius\":0.5,\"samples\":24.0}");
     }
     EXPECT_THAT(test::psychDsFaults(folder.path() / "data" / "tiny-study"), IsEmpty());
 }

@@ -103,6 +103,53 @@ TEST(Text, OptionsAreSideBySideOfOneSizeAndOnScreen) {
     }
 }
 
+Question scaleOf(const std::vector<std::string>& options) {
+    Question question;
+    question.name = "comparison";
+    question.kind = Question::Kind::scale;
+    question.text = "question";
+    question.options = options;
+    return question;
+}
+
+// Seven grades as BT.500 has them: broken inside their words, they would stand in tall columns.
+TEST(Text, LabelsOfManyOptionsAreNotBrokenInsideWords) {
+    Texts grades = texts;
+    grades.own = {{"c1", "much worse"},   {"c2", "worse"},  {"c3", "slightly worse"},
+                  {"c4", "the same"},     {"c5", "better"}, {"c6", "slightly better"},
+                  {"c7", "imperceptible"}};
+    const Form form({scaleOf({"c1", "c2", "c3", "c4", "c5", "c6", "c7"})}, 2);
+    for (const Size size : sizes) {
+        const auto options =
+            drawPage(formPage(grades, form, {}), size.width, size.height, 128).options;
+        ASSERT_EQ(options.size(), 7u);
+        for (const Box& box : options) {
+            EXPECT_LT(box.height, size.height / 4) << size.width;
+            EXPECT_GE(box.x, 0);
+            EXPECT_LE(box.x + box.width, size.width);
+        }
+    }
+}
+
+// No break would do: then inside the word, not outside the screen.
+TEST(Text, LabelOfOneWordThatNothingHoldsIsBroken) {
+    Texts grades = texts;
+    grades.own = {{"c1", std::string(60, 'w')}, {"c2", "no"}};
+    const Form form({scaleOf({"c1", "c2", "c2", "c2", "c2"})}, 2);
+    const auto options = drawPage(formPage(grades, form, {}), 1280, 720, 128).options;
+    EXPECT_GE(options.front().x, 0);
+    EXPECT_LE(options.back().x + options.back().width, 1280);
+}
+
+// The numbers under images are those that answers have for them; a reference has none.
+TEST(Text, ImagesAreNumberedAsTheAnswersNameThem) {
+    Phase phase;
+    phase.images = {"1", "reference", "2"};
+    EXPECT_THAT(roomFor(phase, 400, 225).names, testing::ElementsAre("1", "", "2"));
+    phase.images = {"1"};
+    EXPECT_THAT(roomFor(phase, 400, 225).names, testing::IsEmpty());
+}
+
 TEST(Text, LongTextIsSetSmallerAndThenRefused) {
     std::string words;
     for (int i = 0; i < 80; ++i)

@@ -70,62 +70,75 @@ positionBias = {}
                     options.width, options.height, options.mask, options.minimumView,
                     options.ordering, options.texts, options.positionBias, options.simulation);
     for (std::size_t i = 0; i < tinyPreferences().size(); ++i)
-        text += fmt::format("[[conditions]]\nid = \"c{}\"\nscene = \"box\"\nlevel = \"low\"\n"
-                            "pair = [\"none\", \"crytek24\"]\nsimulatedPreference = {}\n{}\n",
-                            i + 1, tinyPreferences()[i], options.conditions);
+        text += fmt::format(
+            "[[conditions]]\nid = \"c{}\"\nscene = \"box\"\nlevel = \"low\"\n"
+            "pair = [\"none\", \"crytek24\"]\nhypothesis = \"H1\"\nsimulatedPreference = {}\n{}\n",
+            i + 1, tinyPreferences()[i], options.conditions);
     return text;
 }
 
-Image8 noise(const TinyOptions& options, const std::string& name) {
-    Image8 image{options.width, options.height, 3, {}};
+Image8 noise(const Protocol& protocol, const std::string& name) {
+    constexpr int grain = 4; // pixels, so that files stay small
+    Image8 image{protocol.width, protocol.height, 3, {}};
     Random random(1, name);
-    for (int i = 0; i < options.width * options.height * 3; ++i)
-        image.pixels.push_back(static_cast<std::uint8_t>(random.below(256)));
+    std::vector<std::uint8_t> row;
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; y % grain == 0 && x < 3 * image.width; ++x) {
+            const auto at = static_cast<std::size_t>(x);
+            if (row.size() <= at)
+                row.push_back(0);
+            row[at] =
+                x / 3 % grain == 0 ? static_cast<std::uint8_t>(random.below(256)) : row[at - 3];
+        }
+        image.pixels.insert(image.pixels.end(), row.begin(), row.end());
+    }
     return image;
 }
 
-ImageRecord writeImage(const fs::path& folder, const TinyOptions& options, const std::string& file,
-                       const std::string& technique) {
-    writePng(folder / file, noise(options, file));
+ImageRecord writeImage(const fs::path& folder, const Protocol& protocol, const Condition& condition,
+                       const Role& role) {
+    const std::string file = fmt::format("{}_{}.png", condition.id, role.name);
+    writePng(folder / file, noise(protocol, file));
     ImageRecord record;
-    record.name = technique;
-    record.recipe.technique = technique;
-    record.recipe.settings = {{"radius", 0.5}, {"samples", 24}};
+    record.role = role.name;
+    record.name = role.technique;
+    record.recipe.technique = protocol.technique(role.technique).technique;
+    record.recipe.settings = {{"radius", protocol.view(condition.view).radius}};
+    for (const Setting& setting : protocol.technique(role.technique).settings)
+        record.recipe.settings[setting.name] = setting.value;
     record.image = {file, sha256File(folder / file)};
     return record;
 }
 
 } // namespace
 
-TinyStudy writeTinyStudy(const fs::path& folder, const TinyOptions& options) {
-    const TinyStudy study{folder / "tiny.toml", folder / "stimuli"};
-    writeFile(study.protocol, protocolText(options));
-    fs::create_directories(study.stimuli);
-
+void writeNoiseStimuli(const Protocol& protocol, const fs::path& folder) {
+    fs::create_directories(folder);
     Manifest manifest;
-    manifest.study = "tiny-study";
-    manifest.title = "Noise, for tests";
-    const Protocol protocol = readProtocol(study.protocol);
+    manifest.study = protocol.name;
+    manifest.title = protocol.title;
     manifest.protocolSha256 = protocol.sha256;
     manifest.stimuliSha256 = sha256(partsOf(protocol).stimuli);
     manifest.commit = "unknown";
-    manifest.width = options.width;
-    manifest.height = options.height;
-    for (std::size_t i = 0; i < tinyPreferences().size(); ++i) {
-        ConditionRecord pair;
-        pair.condition = fmt::format("c{}", i + 1);
-        pair.level = "low";
-        pair.view = "box";
-        pair.hypothesis = "H1";
-        pair.images.push_back(
-            writeImage(study.stimuli, options, pair.condition + "_a.png", "none"));
-        pair.images.back().role = "a";
-        pair.images.push_back(
-            writeImage(study.stimuli, options, pair.condition + "_b.png", "crytek24"));
-        pair.images.back().role = "b";
-        manifest.conditions.push_back(std::move(pair));
+    manifest.width = protocol.width;
+    manifest.height = protocol.height;
+    for (const Condition& condition : protocol.conditions) {
+        ConditionRecord record;
+        record.condition = condition.id;
+        record.level = condition.level;
+        record.view = condition.view;
+        record.hypothesis = condition.hypothesis;
+        for (const Role& role : condition.roles)
+            record.images.push_back(writeImage(folder, protocol, condition, role));
+        manifest.conditions.push_back(std::move(record));
     }
-    writeManifest(study.stimuli / "manifest.json", manifest);
+    writeManifest(folder / "manifest.json", manifest);
+}
+
+TinyStudy writeTinyStudy(const fs::path& folder, const TinyOptions& options) {
+    const TinyStudy study{folder / "tiny.toml", folder / "stimuli"};
+    writeFile(study.protocol, protocolText(options));
+    writeNoiseStimuli(readProtocol(study.protocol), study.stimuli);
     return study;
 }
 

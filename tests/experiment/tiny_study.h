@@ -42,6 +42,10 @@ struct TinyOptions {
 // Simulated preference for member b of each condition.
 const std::vector<double>& tinyPreferences();
 
+// Noise in place of every image that a protocol, any, wants rendered, and the manifest that vouches
+// for it. Noise differs from image to image; its grains are a few pixels wide.
+void writeNoiseStimuli(const Protocol& protocol, const std::filesystem::path& folder);
+
 TinyStudy writeTinyStudy(const std::filesystem::path& folder, const TinyOptions& options = {});
 
 } // namespace obscura::test
