@@ -7,35 +7,99 @@
 
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <thread>
-#include <vector>
 
 namespace obscura {
 
 namespace {
 
-constexpr int warmUpFlips = 10, measuredFlips = 100;
+using Stamp = gl::Window::Stamp;
+
+constexpr int warmUpFlips = 10, measuredFlips = 120, burstFlips = 8;
+constexpr double pause = 6.1; // refreshes, in which a display shows all that it has been given
+
+constexpr int patchShare = 12; // of the screen's height
 
 } // namespace
 
-Display::Display(const gl::WindowOptions& options, int grey, const Curtain& curtain)
-    : window_(options), grey_(grey), windowed_(options.windowed.has_value()) {
+Display::Display(const DisplayOptions& options, const Curtain& curtain)
+    : priority_(askForPriority()), window_(options.window), grey_(options.grey),
+      photodiode_(options.photodiode), windowed_(options.window.windowed.has_value()) {
+    keepPriorityFromNewThreads();
     const Image8 image = curtain(window_.width(), window_.height());
-    measure({image.width, image.height, image.channels, image.pixels});
+    const gl::Picture picture(image.width, image.height, image.channels, image.pixels);
+    for (int i = 0; i < warmUpFlips; ++i)
+        show(&picture);
+    check_.variable = window_.forbidVariableRefresh(); // which drivers ask for at the first swap
+    measure(picture);
+    check(picture);
 }
 
+// By the best clock that can be believed.
 void Display::measure(const gl::Picture& curtain) {
-    for (int i = 0; i < warmUpFlips; ++i)
-        show(&curtain);
+    if (window_.countsBlanks() && measureBy(Stamp::blanks, curtain))
+        return;
+    if (measureBy(Stamp::finish, curtain))
+        return;
+    window_.stampBy(Stamp::none);
+    ticks_.emplace(refresh_.hz);
+}
+
+bool Display::measureBy(Stamp stamp, const gl::Picture& curtain) {
+    window_.stampBy(stamp);
+    std::vector<gl::Onset> onsets;
+    std::vector<double> intervals, now;
+    for (int i = 0; i <= measuredFlips; ++i) {
+        draw(std::array{centred(curtain)}, grey_, false);
+        onsets.push_back(window_.swap());
+        now.push_back(window_.now());
+        if (i > 0)
+            intervals.push_back(onsets.back().time - onsets[onsets.size() - 2].time);
+    }
+    check_.reportedHz = window_.monitor().refreshHz;
+    refresh_ = judgeRefresh(intervals, check_.reportedHz);
+    check_.flips = summarise(intervals, refresh_.hz);
+    check_.unsynchronised = refresh_.doubt;
+    if (refresh_.source == "none" ||
+        (stamp == Stamp::blanks && !plausible(onsets, now, check_.reportedHz)))
+        return false;
+    if (stamp == Stamp::blanks)
+        refresh_.source = "oml";
+    return true;
+}
+
+void Display::check(const gl::Picture& curtain) {
+    check_.compositor = window_.composited();
+    check_.contentScale = window_.contentScale();
+    check_.colourBits = window_.colourBits();
+    if (!ticks_)
+        check_.queued = queuedSwaps(burst(curtain), refresh_.hz);
+    if (const std::string objection = objectionTo(check_); !objection.empty()) {
+        refresh_.source = "none";
+        refresh_.doubt = objection;
+    }
+}
+
+// How long the first swaps take after a pause that began, and so ends, just after a blank.
+std::vector<double> Display::burst(const gl::Picture& curtain) {
+    const bool blanks = refresh_.source == "oml";
+    window_.stampBy(Stamp::finish); // blanks would be waited for
+    show(&curtain);
+    std::this_thread::sleep_for(std::chrono::duration<double>(pause / refresh_.hz));
     std::vector<double> intervals;
-    for (double last = show(&curtain); intervals.size() < measuredFlips;) {
+    for (double last = window_.now(); intervals.size() < burstFlips;) {
         const double time = show(&curtain);
         intervals.push_back(time - last);
         last = time;
     }
-    refresh_ = judgeRefresh(intervals, window_.monitor().refreshHz);
-    paced_ = refresh_.source == "none";
+    if (blanks)
+        window_.stampBy(Stamp::blanks);
+    return intervals;
+}
+
+std::string Display::inWords() const {
+    return fmt::format("{}; timestamps: {}; scheduling: {}; memory: {}", obscura::inWords(check_),
+                       refresh_.source, priority_.scheduling, priority_.memory);
 }
 
 void Display::describe(nlohmann::ordered_json& sidecar) const {
@@ -49,9 +113,13 @@ void Display::describe(nlohmann::ordered_json& sidecar) const {
         {"framebuffer", fmt::format("{}x{}", window_.width(), window_.height())},
         {"content_scale", window_.contentScale()},
         {"windowed", windowed_},
+        {"photodiode", photodiode_},
         {"gl_vendor", driver.vendor},
         {"gl_renderer", driver.renderer},
         {"gl_version", driver.version},
+        {"check", spell(check_)},
+        {"scheduling", priority_.scheduling},
+        {"memory", priority_.memory},
     };
 }
 
@@ -62,43 +130,38 @@ void Display::warmUp(const gl::Picture& picture) {
                                 "window, or a smaller image size in the protocol",
                                 picture.width(), picture.height(), window_.width(),
                                 window_.height()));
-    draw(std::array{centred(picture)}, grey_);
+    draw(std::array{centred(picture)}, grey_, false);
     window_.finish();
     window_.check();
 }
 
-double Display::show(const gl::Picture* picture) {
+double Display::show(const gl::Picture* picture, bool stimulus) {
     if (!picture)
-        return show({}, grey_);
-    return show(std::array{centred(*picture)}, grey_);
+        return show({}, grey_, stimulus);
+    return show(std::array{centred(*picture)}, grey_, stimulus);
 }
 
-double Display::show(std::span<const Placed> pictures, int grey) {
-    draw(pictures, grey);
-    if (paced_) {
+// With a clock in place of blanks, all is drawn before the tick, and swapped at it.
+double Display::show(std::span<const Placed> pictures, int grey, bool stimulus) {
+    draw(pictures, grey, stimulus);
+    if (ticks_) {
         window_.finish();
-        awaitTick();
+        ticks_->await();
     }
-    window_.swap();
-    return window_.now();
+    return window_.swap().time;
 }
 
-void Display::draw(std::span<const Placed> pictures, int grey) {
+void Display::draw(std::span<const Placed> pictures, int grey, bool stimulus) {
     window_.clear(grey);
     for (const Placed& placed : pictures)
         window_.draw(*placed.picture, placed.x, placed.y);
+    if (photodiode_)
+        window_.fillCorner(window_.height() / patchShare, stimulus ? 255 : 0);
 }
 
 Placed Display::centred(const gl::Picture& picture) const {
     return {&picture, (window_.width() - picture.width()) / 2,
             (window_.height() - picture.height()) / 2};
-}
-
-// The next whole multiple of 1/60 s on the window's clock.
-void Display::awaitTick() {
-    const double tick = (std::floor(window_.now() * refresh_.hz) + 1) / refresh_.hz;
-    while (window_.now() < tick)
-        std::this_thread::sleep_for(std::chrono::duration<double>(tick - window_.now()));
 }
 
 } // namespace obscura

@@ -1,13 +1,19 @@
 #pragma once
 
 #include "experiment/refresh.h"
+#include "experiment/timing_check.h"
+#include "experiment/timing_priority.h"
+#include "experiment/timing_ticks.h"
 #include "gl/window.h"
 #include "image/image.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -20,15 +26,26 @@ struct Placed {
     int x = 0, y = 0;
 };
 
+struct DisplayOptions {
+    gl::WindowOptions window;
+    int grey = 128;          // of the surround, a code value
+    bool photodiode = false; // a square in the lower left corner, white while a stimulus is on view
+                             // and black otherwise, for a light sensor
+};
+
 // The screen: shows one picture at a time, 1:1 in its middle on the surround grey, and says when it
-// came on. Its rate is measured when it is made, with `curtain` on view. Where swaps follow no
-// vertical blank (Xvfb, a driver told not to wait) it is paced by the clock at 60 Hz, and refresh()
-// says so.
+// came on. When it is made, it is checked with `curtain` on view: how fast it is, and whether that
+// can be relied on. Where swaps follow no vertical blank (Xvfb, a driver told not to wait) it is
+// paced by the clock at 60 Hz, and refresh() says so.
 class Display {
   public:
-    Display(const gl::WindowOptions& options, int grey, const Curtain& curtain);
+    Display(const DisplayOptions& options, const Curtain& curtain);
 
     const Refresh& refresh() const { return refresh_; }
+    // Why no data should be collected on it, and what to do; "" if they may.
+    std::string objection() const { return objectionTo(check_); }
+    // What the check found, in a line.
+    std::string inWords() const;
     void describe(nlohmann::ordered_json& sidecar) const;
     gl::Window& window() { return window_; }
 
@@ -37,21 +54,26 @@ class Display {
     void warmUp(const gl::Picture& picture);
 
     // Shows the picture, or grey alone without one, and returns the time at which it came on.
-    double show(const gl::Picture* picture);
+    double show(const gl::Picture* picture, bool stimulus = false);
     // The same with several, each with its top left corner at a place, on another grey.
-    double show(std::span<const Placed> pictures, int grey);
+    double show(std::span<const Placed> pictures, int grey, bool stimulus = false);
 
   private:
     void measure(const gl::Picture& curtain);
-    void draw(std::span<const Placed> pictures, int grey);
+    bool measureBy(gl::Window::Stamp stamp, const gl::Picture& curtain);
+    void check(const gl::Picture& curtain);
+    std::vector<double> burst(const gl::Picture& curtain);
+    void draw(std::span<const Placed> pictures, int grey, bool stimulus);
     Placed centred(const gl::Picture& picture) const;
-    void awaitTick();
 
+    Priority priority_; // asked for before the window is made, for the driver's threads inherit it
     gl::Window window_;
     int grey_;
+    bool photodiode_;
     bool windowed_;
+    DisplayCheck check_;
     Refresh refresh_;
-    bool paced_ = false;
+    std::optional<Ticks> ticks_; // in place of vertical blanks
 };
 
 } // namespace obscura

@@ -83,7 +83,7 @@ Form::Effect Form::click(int target, double share, double seconds) {
 }
 
 Form::Effect Form::noted(Effect effect) {
-    touched_ |= effect == Effect::changed;
+    changes_ += effect == Effect::changed;
     return effect;
 }
 

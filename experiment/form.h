@@ -49,7 +49,7 @@ class Form {
     const std::vector<Entry>& entries() const { return entries_; }
     int focus() const { return focus_; } // from 0
     bool alone() const { return alone_; }
-    bool touched() const { return touched_; } // anything was done to it
+    int changes() const { return changes_; } // how often what its page shows has changed
     bool answered(std::size_t index) const;
     bool complete() const; // so that the page may end
     std::vector<Answer> answers() const;
@@ -74,7 +74,8 @@ class Form {
     std::vector<Entry> entries_;
     int images_;
     int focus_ = 0;
-    bool alone_, touched_ = false;
+    bool alone_;
+    int changes_ = 0;
 };
 
 // The number that a key stands for: of the digits 0 ... 9, also on the keypad; -1 for none.

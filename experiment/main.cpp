@@ -1,16 +1,20 @@
 #include "base/arguments.h"
 #include "base/error.h"
+#include "base/files.h"
 #include "base/progress.h"
 #include "base/version.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
 #include "experiment/presenter.h"
+#include "experiment/recorder.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
+#include "experiment/timing_report.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -27,18 +31,56 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Arguments {
-    std::filesystem::path protocol, stimuli, data = "participant_data";
+    fs::path protocol, stimuli, data = "participant_data";
     std::string participant;
     int session = 1;
     int monitor = 1;
     std::string windowSize; // with --windowed; "" for the usual one
-    bool windowed = false, rehearse = false, acceptUntimed = false, listMonitors = false;
+    bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
     bool simulate = false;
     int simulated = 0; // how many; 0 as the protocol plans
     std::optional<std::uint64_t> seed;
     int returned = 0; // slot, with ledger --void
     bool yes = false, restore = false;
+    bool photodiode = false;
+    int masks = 1000; // with timing
+    double seconds = 2;
+    bool json = false;
+    fs::path out;
 };
+
+CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
+    app.add_option("--monitor", arguments.monitor, "Which monitor, as --list-monitors counts them")
+        ->type_name("N")
+        ->capture_default_str();
+    app.add_flag("--photodiode", arguments.photodiode,
+                 "Show a square in the lower left corner that is white while an image is on view "
+                 "and black otherwise, for a light sensor");
+    return app
+        .add_option("--windowed", arguments.windowSize,
+                    "Rehearse in a window, of 1280x800 unless a size is given")
+        ->type_name("WxH")
+        ->expected(0, 1);
+}
+
+void declareTiming(CLI::App& app, Arguments& arguments) {
+    CLI::App* timing = app.add_subcommand(
+        "timing", "Hold grey masks between images as a trial does, and say how long they were");
+    timing->add_option("--masks", arguments.masks, "How many")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+    timing->add_option("--seconds", arguments.seconds, "How long each")
+        ->type_name("S")
+        ->check(CLI::Range(0.01, 3600.0))
+        ->capture_default_str();
+    timing->add_flag("--json", arguments.json, "Print JSON instead of a table");
+    timing
+        ->add_option("--out", arguments.out,
+                     "Also write timing.json, and masks.csv with a line for each mask")
+        ->type_name("DIR");
+    declareScreen(*timing, arguments);
+}
 
 void declare(CLI::App& app, Arguments& arguments) {
     app.set_version_flag("--version", fmt::format("{} ({})", version(), commit()));
@@ -55,21 +97,15 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->type_name("N")
         ->check(CLI::Range(1, 99))
         ->capture_default_str();
-    app.add_option("--monitor", arguments.monitor, "Which monitor, as --list-monitors counts them")
-        ->type_name("N")
-        ->capture_default_str();
+    CLI::Option* windowed = declareScreen(app, arguments);
     app.add_flag("--list-monitors", arguments.listMonitors, "Name the monitors, and end");
-    CLI::Option* windowed =
-        app.add_option("--windowed", arguments.windowSize,
-                       "Rehearse in a window, of 1280x800 unless a size is given")
-            ->type_name("WxH")
-            ->expected(0, 1);
     CLI::Option* rehearse =
         app.add_flag("--rehearse", arguments.rehearse,
                      "Try the study out: takes no slot, and its rows go to rehearsals/ in the data "
                      "folder, marked as such; --windowed always does");
-    app.add_flag("--accept-untimed", arguments.acceptUntimed,
-                 "Leave out the warning on displays without a vertical blank");
+    app.add_flag("--allow-untimed", arguments.allowUntimed,
+                 "Go on, and without a warning on the screen, on a display whose times cannot be "
+                 "relied on; every row says timestamp_source none");
     CLI::Option* simulate =
         app.add_option("--simulate", arguments.simulated,
                        "Run N simulated participants, without a window; as many as the protocol "
@@ -101,6 +137,7 @@ void declare(CLI::App& app, Arguments& arguments) {
     ledger->add_flag("--yes", arguments.yes, "Answer yes to what --void asks");
     ledger->add_flag("--restore", arguments.restore,
                      "Add the sessions beside a lost or shortened ledger that it does not know");
+    declareTiming(app, arguments);
     app.footer(
         "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
         "end.\n"
@@ -194,28 +231,43 @@ gl::WindowOptions windowOptions(const Arguments& arguments) {
     return options;
 }
 
-// What stands above every page of text, and on stderr: the session is no measurement.
-std::string warning(const Arguments& arguments, const Refresh& refresh) {
-    if (!refresh.doubt.empty()) {
+// What stands above every page of text, and on stderr: the session is no measurement. An Error on
+// a display that no data should be collected on.
+std::string warning(const Arguments& arguments, const Display& display) {
+    fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
+    const Refresh& refresh = display.refresh();
+    const std::string objection = display.objection();
+    if (!objection.empty() && !arguments.rehearse && !arguments.allowUntimed)
+        throw Error(objection + "; or go on with --allow-untimed: every row then says "
+                                "timestamp_source none");
+    if (refresh.source == "none") {
         fmt::print(stderr,
-                   "obscura-experiment: no vertical blank to go by ({}). Pictures are paced by the "
-                   "clock at 60 Hz, rows are marked timestamp_source none: not suitable for data "
-                   "collection.\n",
-                   refresh.doubt);
-        if (!arguments.acceptUntimed)
+                   "obscura-experiment: {}: rows are marked timestamp_source none: not "
+                   "suitable for data collection.\n",
+                   objection.empty() ? fmt::format("no vertical blank to go by ({}). Pictures are "
+                                                   "paced by the clock at 60 Hz",
+                                                   refresh.doubt)
+                                     : objection);
+        if (!arguments.allowUntimed)
             return "Untimed display: not suitable for data collection";
     }
     return arguments.rehearse ? "Rehearsal: answers do not count" : "";
 }
 
-void reportOrphans(const DataFolder& folder) {
-    for (const SlotRecord& record : Ledger(folder.ledger()).records())
-        if (isOrphan(record))
-            fmt::print(
-                stderr,
-                "obscura-experiment: the session of {} broke off; its slot {} stays reserved "
-                "until obscura-experiment ledger --void {}\n",
-                record.session.participant, record.slot, record.slot);
+// Of sessions whose process has died: what their journals have is written into their tables, and
+// the experimenter is told.
+void mendOrphans(const DataFolder& folder) {
+    for (const SlotRecord& record : Ledger(folder.ledger()).records()) {
+        if (!isOrphan(record))
+            continue;
+        if (fs::exists(folder.journal(record.session)))
+            restoreTables(folder, record.session);
+        fmt::print(
+            stderr,
+            "obscura-experiment: the session of {} broke off; what was answered is kept. Its "
+            "slot {} stays reserved until obscura-experiment ledger --void {}\n",
+            record.session.participant, record.slot, record.slot);
+    }
 }
 
 int present(const Arguments& arguments, const Study& study) {
@@ -237,11 +289,12 @@ int present(const Arguments& arguments, const Study& study) {
                    "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
     } else {
         checkFolder(folder, study);
-        reportOrphans(folder);
+        mendOrphans(folder);
     }
 
-    Display display(windowOptions(arguments), study.protocol.trial.grey, curtain(study));
-    Presenter presenter(display, study, warning(arguments, display.refresh()));
+    Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
+                    curtain(study));
+    Presenter presenter(display, study, warning(arguments, display));
     const std::optional<std::string> id = arguments.participant.empty()
                                               ? presenter.askId(problemWith)
                                               : std::optional(arguments.participant);
@@ -256,6 +309,38 @@ int present(const Arguments& arguments, const Study& study) {
     return 0;
 }
 
+Image8 greyScreen(int width, int height) {
+    const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
+    return {width, height, 3, std::vector<std::uint8_t>(size, 128)};
+}
+
+void report(const Arguments& arguments, const TimingRun& timing, const Display& display) {
+    nlohmann::ordered_json json = spell(timing);
+    display.describe(json);
+    fmt::print("{}", arguments.json ? json.dump(2) + "\n" : inWords(timing));
+    if (arguments.out.empty())
+        return;
+    writeFile(arguments.out / "timing.json", json.dump(2) + "\n");
+    writeFile(arguments.out / "masks.csv", csv(timing));
+}
+
+int timing(const Arguments& arguments) {
+    Display display({windowOptions(arguments), 128, arguments.photodiode}, greyScreen);
+    fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
+    TimingRun timing;
+    timing.seconds = arguments.seconds;
+    int status = 0;
+    try {
+        Progress progress("masks", arguments.masks);
+        holdMasks(display, arguments.masks, timing, [&](int done) { progress.update(done); });
+    } catch (const EndedBySignal& ended) {
+        timing.ended = "ended by " + ended.name();
+        status = ended.exitStatus();
+    }
+    report(arguments, timing, display);
+    return status;
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Shows a study's image pairs to one participant, full screen, and records the "
                  "answers. Also runs simulated participants.",
@@ -264,17 +349,21 @@ int run(int argc, char** argv) {
     declare(app, arguments);
     CLI11_PARSE(app, argc, argv);
     arguments.simulate = app.count("--simulate") > 0;
-    arguments.windowed = app.count("--windowed") > 0;
+    arguments.windowed =
+        app.count("--windowed") + app.get_subcommand("timing")->count("--windowed") > 0;
     arguments.rehearse |= arguments.windowed;
 
     if (arguments.listMonitors)
         return listMonitors();
     if (app.got_subcommand("ledger"))
         return editLedger(arguments);
-    if (arguments.protocol.empty() || arguments.stimuli.empty())
-        throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     heedSignals();
+    const bool times = app.got_subcommand("timing");
+    if (!times && (arguments.protocol.empty() || arguments.stimuli.empty()))
+        throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
+        if (times)
+            return timing(arguments);
         const Study study = openStudy(arguments.protocol, arguments.stimuli);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
     } catch (const EndedBySignal& ended) {

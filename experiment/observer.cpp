@@ -106,7 +106,7 @@ std::vector<Event> SimulatedObserver::type(const Question& question, double afte
     for (const char letter :
          number ? fmt::format("{:.0f}", (question.least + question.most) / 2) : "x") {
         Event event{Event::Kind::text, clock_};
-        event.symbol = static_cast<std::uint32_t>(letter);
+        event.symbol = static_cast<unsigned char>(letter);
         events.push_back(event);
     }
     return events;

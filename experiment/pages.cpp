@@ -88,7 +88,9 @@ Page::Part partOf(const Texts& texts, const Form& form, std::size_t index) {
     part.label = wordsOf(texts, question.text);
     part.focus = form.focus() == static_cast<int>(index);
     switch (question.kind) {
-    case Question::Kind::number:
+    case Question::Kind::number: // says what it takes, for Enter does nothing with anything else
+        part.label += fmt::format(" ({:g}–{:g})", question.least, question.most);
+        [[fallthrough]];
     case Question::Kind::text:
         part.field = Page::Field{entry.typed, part.focus};
         break;

@@ -176,7 +176,7 @@ double Presenter::showImages(std::span<const Placed> images, int grey) {
     images_ = images;
     grey_ = grey;
     display_.window().showCursor(false);
-    return display_.show(images_, grey_);
+    return display_.show(images_, grey_, !images_.empty());
 }
 
 // Images beside each other in the middle of the screen, or all in the same place where they are
@@ -216,7 +216,7 @@ std::vector<gl::Input> Presenter::inputs() {
     if (uncovered && sheet_)
         showSheet(*sheet_);
     else if (uncovered)
-        display_.show(images_, grey_);
+        display_.show(images_, grey_, !images_.empty());
     return inputs;
 }
 
@@ -354,6 +354,7 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
 
 void Presenter::prepare(const Upcoming& trial) {
     trial_ = trial;
+    drawn_ = {};
     for (std::size_t i = 0; i < phases_.size(); ++i) {
         const Phase& phase = phases_[i];
         Prepared& prepared = prepared_[i];
@@ -377,9 +378,12 @@ double Presenter::show(const TrialMachine& trial) {
     const auto index = static_cast<std::size_t>(trial.screen());
     const Phase& phase = phases_[index];
     const Prepared& prepared = prepared_[index];
-    if (const Form* form = trial.form(); form && form->touched()) {
-        answered_ = formSheet(*form, phase);
-        answered_.title = prepared.title;
+    if (const Form* form = trial.form(); form && form->changes() > 0) {
+        if (drawn_ != std::pair(index, form->changes())) { // not at every refresh of a timed page
+            answered_ = formSheet(*form, phase);
+            answered_.title = prepared.title;
+            drawn_ = {index, form->changes()};
+        }
         return showSheet(answered_);
     }
     if (prepared.sheet)

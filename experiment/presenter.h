@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace obscura {
@@ -88,9 +89,10 @@ class Presenter : public Observer {
     std::vector<Phase> phases_;
     std::vector<std::map<std::string, gl::Picture>> pictures_; // by condition and role
     Sheet leave_;
-    std::vector<Prepared> prepared_; // by phase
-    Sheet answered_;                 // a page of questions as far as it is answered
-    Upcoming trial_;                 // the prepared one
+    std::vector<Prepared> prepared_;    // by phase
+    Sheet answered_;                    // a page of questions as far as it is answered,
+    std::pair<std::size_t, int> drawn_; // and of which phase, after how many changes
+    Upcoming trial_;                    // the prepared one
 
     // What is on the screen: a page, or else images or, without one, grey.
     const Sheet* sheet_ = nullptr;

@@ -58,9 +58,9 @@ bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int tri
 // The roles at the places 1, 2 and so on.
 std::vector<std::string> placed(const std::vector<std::string>& roles,
                                 const std::vector<int>& order) {
-    std::vector<std::string> result;
-    for (const int role : order)
-        result.push_back(roles[static_cast<std::size_t>(role)]);
+    std::vector<std::string> result(order.size());
+    std::transform(order.begin(), order.end(), result.begin(),
+                   [&](int role) { return roles[static_cast<std::size_t>(role)]; });
     return result;
 }
 

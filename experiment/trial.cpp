@@ -3,20 +3,8 @@
 #include "experiment/refresh.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace obscura {
-
-namespace {
-
-// Bridges et al. 2020 and PsychoPy: an interval above 1.2 refreshes is a missed one.
-constexpr double missedInterval = 1.2;
-
-// By how much, in refreshes, a stamp may lie before the blank that it stands for. More would take a
-// late stamp for a refresh that was not, and end a phase early.
-constexpr double stampTolerance = 0.25;
-
-} // namespace
 
 int optionOf(gl::Key key) {
     if (key == gl::Key::left || key == gl::Key::right)
@@ -71,14 +59,13 @@ int TrialMachine::alternation() const {
 }
 
 void TrialMachine::shown(double time) {
-    if (counted(visible_))
-        closeRefresh(time);
     if (visible_ != screen_)
         enter(time);
     pending_ = false;
     if (!counted(screen_))
         return;
-    countRefresh(time);
+    count_->add(time);
+    noteCount();
     PhaseRecord& record = recordOf(screen_);
     if (record.framesShown < record.framesPlanned)
         return;
@@ -91,6 +78,12 @@ void TrialMachine::shown(double time) {
 }
 
 void TrialMachine::enter(double time) {
+    if (counted(visible_)) {
+        count_->end(time);
+        noteCount();
+        std::vector<double>& all = recordOf(*visible_).intervals;
+        all.insert(all.end(), count_->intervals().begin(), count_->intervals().end());
+    }
     if (visible_ && *visible_ != leaveScreen)
         recordOf(*visible_).view += time - since_;
     before_ = visible_;
@@ -98,31 +91,21 @@ void TrialMachine::enter(double time) {
     since_ = time;
     if (screen_ == leaveScreen)
         return;
-    swaps_ = recordOf(screen_).framesShown;
-    firstRefresh_ = time - swaps_ / refreshHz_;
-    if (!recordOf(screen_).shown)
-        recordOf(screen_).onset = time;
-    recordOf(screen_).shown = true;
+    PhaseRecord& record = recordOf(screen_);
+    framesBefore_ = record.framesShown;
+    missedBefore_ = record.missedFrames;
+    if (counted(screen_))
+        count_.emplace(refreshHz_, record.framesPlanned);
+    if (!record.shown)
+        record.onset = time;
+    record.shown = true;
 }
 
-// The interval since the last refresh of the phase on the screen. Each swap of a synchronised
-// display lasts one refresh, or more when the next comes late, which the time since the first
-// tells. Drivers that queue the first swaps return early from them; each is a refresh all the same.
-void TrialMachine::closeRefresh(double time) {
+// Of the phase on the screen.
+void TrialMachine::noteCount() {
     PhaseRecord& record = recordOf(*visible_);
-    const double interval = time - lastRefresh_;
-    record.intervals.push_back(interval);
-    record.missedFrames += interval * refreshHz_ > missedInterval;
-    const double passed = (time - firstRefresh_) * refreshHz_;
-    record.framesShown = std::max(swaps_, static_cast<int>(std::floor(passed + stampTolerance)));
-}
-
-void TrialMachine::countRefresh(double time) {
-    ++swaps_;
-    lastRefresh_ = time;
-    const double passed = (time - firstRefresh_) * refreshHz_;
-    recordOf(screen_).framesShown =
-        std::max(swaps_, static_cast<int>(std::floor(passed + stampTolerance)) + 1);
+    record.framesShown = framesBefore_ + count_->refreshes();
+    record.missedFrames = missedBefore_ + count_->missed();
 }
 
 void TrialMachine::handle(const Event& event) {

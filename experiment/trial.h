@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiment/form.h"
+#include "experiment/timing_count.h"
 #include "gl/input.h"
 #include "protocols/reader/trial.h"
 
@@ -100,8 +101,7 @@ class TrialMachine {
     void advance(double time);
     void go(Screen screen);
     void enter(double time);
-    void countRefresh(double time);
-    void closeRefresh(double time);
+    void noteCount();
     std::optional<Screen> droppedIn(double time) const;
     void press(gl::Key key, double time);
     void end(double time);
@@ -128,9 +128,9 @@ class TrialMachine {
     std::optional<Form> form_;
     std::set<gl::Key> held_;
 
-    // Of the counted phase that was on the screen last.
-    int swaps_ = 0;
-    double firstRefresh_ = 0, lastRefresh_ = 0;
+    // Of the counted phase on the screen, since it came there; and what was counted before a pause.
+    std::optional<RefreshCount> count_;
+    int framesBefore_ = 0, missedBefore_ = 0;
 };
 
 } // namespace obscura

@@ -1,6 +1,7 @@
 #include "gl/window.h"
 
 #include "base/error.h"
+#include "gl/x11.h"
 
 #include <epoxy/gl.h>
 
@@ -102,6 +103,9 @@ std::vector<Monitor> monitors() {
 }
 
 Window::Window(const WindowOptions& options) : interrupt_(options.interrupt) {
+    constexpr std::size_t expected = 256; // inputs between two calls of poll()
+    inputs_.reserve(expected);
+    taken_.reserve(expected);
     open(options);
     listen();
     glfwMakeContextCurrent(window_.get());
@@ -191,6 +195,23 @@ double Window::contentScale() const {
     return static_cast<double>(x);
 }
 
+std::array<int, 3> Window::colourBits() const {
+    std::array<int, 3> bits{};
+    glGetNamedFramebufferAttachmentParameteriv(0, GL_BACK_LEFT, GL_FRAMEBUFFER_ATTACHMENT_RED_SIZE,
+                                               &bits[0]);
+    glGetNamedFramebufferAttachmentParameteriv(0, GL_BACK_LEFT,
+                                               GL_FRAMEBUFFER_ATTACHMENT_GREEN_SIZE, &bits[1]);
+    glGetNamedFramebufferAttachmentParameteriv(0, GL_BACK_LEFT, GL_FRAMEBUFFER_ATTACHMENT_BLUE_SIZE,
+                                               &bits[2]);
+    return bits;
+}
+
+std::optional<bool> Window::composited() const { return compositorRuns(); }
+
+std::optional<bool> Window::forbidVariableRefresh() {
+    return gl::forbidVariableRefresh(window_.get());
+}
+
 double Window::now() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
 }
@@ -203,32 +224,60 @@ void Window::clear(int grey) {
 
 void Window::draw(const Picture& picture, int x, int y) { picture.draw(x, y, height_); }
 
+void Window::fillCorner(int size, int grey) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(0, 0, size, size);
+    clear(grey);
+    glDisable(GL_SCISSOR_TEST);
+}
+
 void Window::finish() { glFinish(); }
+
+bool Window::countsBlanks() const { return gl::countsBlanks(); }
+
+Onset Window::swap() {
+    glfwSwapBuffers(window_.get());
+    const Onset onset = awaitOnset();
+    interrupt_();
+    return onset;
+}
 
 // Some drivers return from the swap at once and wait in the next drawing call instead
 // (glfw/glfw#1672): touching one pixel of the new back buffer brings the wait here. It is
 // overdrawn by the next clear().
-void Window::swap() {
-    glfwSwapBuffers(window_.get());
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(0, 0, 1, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
-    glDisable(GL_SCISSOR_TEST);
-    glFinish();
-    interrupt_();
+Onset Window::awaitOnset() const {
+    if (stamp_ == Stamp::blanks) {
+        const double start = std::chrono::duration<double>(start_.time_since_epoch()).count();
+        if (const auto blank = awaitBlank())
+            return {blank->time - start, blank->count};
+    } else if (stamp_ == Stamp::finish) {
+        glEnable(GL_SCISSOR_TEST);
+        glScissor(0, 0, 1, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+        glDisable(GL_SCISSOR_TEST);
+        glFinish();
+    }
+    return {now()};
 }
 
-std::vector<Input> Window::poll() {
+const std::vector<Input>& Window::poll() {
     glfwPollEvents();
     interrupt_();
-    return std::exchange(inputs_, {});
+    return take();
 }
 
-std::vector<Input> Window::wait() {
+const std::vector<Input>& Window::wait() {
     constexpr double interval = 0.1; // seconds between calls of interrupt_
     for (interrupt_(); inputs_.empty(); interrupt_())
         glfwWaitEventsTimeout(interval);
-    return std::exchange(inputs_, {});
+    return take();
+}
+
+// The memory of both lists is used again.
+const std::vector<Input>& Window::take() {
+    taken_.clear();
+    std::swap(inputs_, taken_);
+    return taken_;
 }
 
 void Window::showCursor(bool visible) {

@@ -4,7 +4,9 @@
 #include "gl/input.h"
 #include "gl/picture.h"
 
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +37,13 @@ struct WindowOptions {
     void (*interrupt)() = [] {};
 };
 
+// When a picture came on, in seconds since the window was made.
+struct Onset {
+    double time = 0;
+    std::int64_t blanks =
+        0; // vertical blanks then, as the display counts them; 0 where it does not
+};
+
 // A window with an OpenGL 4.5 context for showing pictures pixel by pixel: double-buffered,
 // synchronised to the vertical blank where the driver can, its framebuffer 8 bits and not sRGB.
 // Input is collected with the time at which it arrived.
@@ -47,7 +56,10 @@ class Window {
 
     int width() const { return width_; } // of the framebuffer
     int height() const { return height_; }
-    double contentScale() const;
+    double contentScale() const;                 // 1 is 100 %
+    std::array<int, 3> colourBits() const;       // of red, green and blue
+    std::optional<bool> composited() const;      // whether a compositor runs; nothing: not known
+    std::optional<bool> forbidVariableRefresh(); // true when the driver had asked for it
     const Monitor& monitor() const { return monitor_; }
     Driver driver() const { return currentDriver(); }
 
@@ -55,18 +67,27 @@ class Window {
 
     // Fills the back buffer with a code value, 0 ... 255.
     void clear(int grey);
+    // Fills a square of that many pixels in the back buffer's lower left corner.
+    void fillCorner(int size, int grey);
     // Copies the picture to the back buffer, its top left corner at (x, y) from that of the buffer.
     void draw(const Picture& picture, int x, int y);
     // Waits until all drawing is done.
     void finish();
     // Raises as an Error what the driver has complained of since the window was made.
     void check() { throwMessages(); }
+    // How swap() knows when a picture came on, the best first: the display's own clock of vertical
+    // blanks, where countsBlanks(); when the driver says that it has finished; when it returns.
+    enum class Stamp { blanks, finish, none };
+    bool countsBlanks() const;
+    void stampBy(Stamp stamp) { stamp_ = stamp; }
     // Puts the back buffer on screen. Returns when the driver has done so, as far as it tells:
     // with a vertical blank, after it.
-    void swap();
+    Onset swap();
 
-    std::vector<Input> poll(); // what has arrived, without waiting
-    std::vector<Input> wait(); // sleeps until something arrives
+    // What has arrived, without waiting or allocating; valid until the next call.
+    const std::vector<Input>& poll();
+    // The same, but sleeps until something arrives.
+    const std::vector<Input>& wait();
     void showCursor(bool visible);
     bool focused() const; // whether the keyboard is ours
     void setTitle(const std::string& title);
@@ -87,14 +108,17 @@ class Window {
     void open(const WindowOptions& options);
     void listen();
     Input stamped(Input::Kind kind) const;
+    const std::vector<Input>& take();
+    Onset awaitOnset() const;
 
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     Library library_;
     Monitor monitor_;
     std::unique_ptr<GLFWwindow, Destroy> window_;
     int width_ = 0, height_ = 0;
-    std::vector<Input> inputs_;
+    std::vector<Input> inputs_, taken_;
     void (*interrupt_)();
+    Stamp stamp_ = Stamp::finish;
 };
 
 } // namespace obscura::gl

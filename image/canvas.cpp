@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace obscura {
 
@@ -74,7 +75,7 @@ void Canvas::image(int x, int y, const Image8& image) {
         for (int column = 0; column < image.width; ++column) {
             unsigned char* to = data + (y + row) * stride + (x + column) * 4;
             const std::uint8_t* from =
-                &image.pixels[static_cast<std::size_t>((row * image.width + column) * 3)];
+                image.pixels.data() + (std::ptrdiff_t{row} * image.width + column) * 3;
             to[0] = from[2]; // little-endian xRGB
             to[1] = from[1];
             to[2] = from[0];
@@ -138,7 +139,9 @@ Image8 signedError(const Image& image, const Image& reference, float full) {
     Image8 result{image.width, image.height, 3, {}};
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {
         const float d = std::clamp((image.pixels[i] - reference.pixels[i]) / full, -1.0f, 1.0f);
-        const auto code = [](float value) { return static_cast<std::uint8_t>(value * 255 + 0.5f); };
+        const auto code = [](float value) {
+            return static_cast<std::uint8_t>(std::lround(value * 255));
+        };
         const std::uint8_t fading = code(1 - std::abs(d));
         result.pixels.insert(result.pixels.end(),
                              {d > 0 ? fading : code(1), fading, d < 0 ? fading : code(1)});
@@ -157,8 +160,9 @@ Image8 shrunk(const Image8& from, int width, int height) {
                 int sum = 0;
                 for (int v = y0; v < y1; ++v)
                     for (int u = x0; u < x1; ++u)
-                        sum += from.pixels[static_cast<std::size_t>(
-                            (v * from.width + u) * from.channels + c)];
+                        sum +=
+                            from.pixels
+                                .data()[(std::ptrdiff_t{v} * from.width + u) * from.channels + c];
                 to.pixels.push_back(static_cast<std::uint8_t>(sum / ((x1 - x0) * (y1 - y0))));
             }
     return to;

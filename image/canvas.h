@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-struct _cairo;
+struct _cairo; // NOLINT(bugprone-reserved-identifier): so Cairo calls what cairo_t is
 
 namespace obscura {
 

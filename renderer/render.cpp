@@ -133,8 +133,9 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
                   SceneHashes& scenes, const gl::Driver& driver, std::string_view code) {
     const View& view = protocol.view(condition.view);
     const Level& level = protocol.level(condition.level);
-    const Settings settings = settingsOf(
-        protocol.technique(condition.roles[static_cast<std::size_t>(member)].technique), view.radius);
+    const Settings settings =
+        settingsOf(protocol.technique(condition.roles[static_cast<std::size_t>(member)].technique),
+                   view.radius);
     Recipe recipe;
     recipe.width = protocol.width;
     recipe.height = protocol.height;

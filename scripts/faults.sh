@@ -66,7 +66,7 @@ fault pages-forgotten image/canvas.cpp \
     matching_test 'MatchSheet.*'
 
 # Of sessions.
-fault missed-threshold experiment/trial.cpp \
+fault missed-threshold experiment/timing_count.cpp \
     's|missedInterval = 1\.2|missedInterval = 1.5|' \
     experiment_test 'Trial.*'
 fault key-before-onset experiment/trial.cpp \
@@ -81,6 +81,12 @@ fault minimum-view-lost experiment/trial.cpp \
 fault mask-rounding experiment/refresh.cpp \
     's|seconds \* hz - 0\.25|seconds * hz|' \
     experiment_test 'Refresh.*'
+fault late-stamp-ends-mask experiment/timing_count.cpp \
+    's/std::min\(before, behind_\)/std::max(before, behind_)/' \
+    experiment_test 'RefreshCount.*'
+fault blanks-unchecked experiment/timing_check.cpp \
+    's/blanks < 1 \|\|/false \&\&/' \
+    experiment_test 'DisplayCheck.*'
 fault returned-slot-lost experiment/ledger.cpp \
     's|\(record\.state == SlotState::returned\)|(record.state == SlotState::returned \&\& record.slot > 1)|' \
     experiment_test 'LedgerTest.*'

@@ -50,7 +50,7 @@ struct ImageRecord {
 struct ConditionRecord {
     std::string condition; // id
     std::string level, view, hypothesis;
-    double radius = 0; // metres, that of every image
+    double radius = 0;              // metres, that of every image
     std::deque<ImageRecord> images; // references stay valid while it grows
 
     const ImageRecord* find(std::string_view role) const; // null when there is none

@@ -218,6 +218,7 @@ void parseConditions(TomlTable& root, Protocol& protocol) {
 
 std::vector<ConditionLabels> labelsOf(const std::vector<Condition>& conditions) {
     std::vector<ConditionLabels> labels;
+    labels.reserve(conditions.size());
     for (const Condition& one : conditions)
         labels.push_back({one.id, one.view, one.level, one.correct});
     return labels;

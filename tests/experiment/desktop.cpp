@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 
+#include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
@@ -25,10 +26,10 @@ struct Desktop::Connection {
     Display* display;
 };
 
-Desktop::Desktop(int width, int height) : width_(width), height_(height) {
+Desktop::Desktop(int width, int height, int bitsPerPixel) : width_(width), height_(height) {
     // A window may be gone between being listed and being asked; Xlib would end the test program.
     XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
-    start(width, height);
+    start(bitsPerPixel);
     connection_ = std::make_unique<Connection>(name_);
     if (!connection_->display)
         throw Error("Xvfb runs, but refuses connections on " + name_);
@@ -43,11 +44,11 @@ Desktop::~Desktop() {
 }
 
 // The server picks a free number and writes it, and a line feed, once it is ready.
-void Desktop::start(int width, int height) {
+void Desktop::start(int bitsPerPixel) {
     int channel[2];
     if (::pipe(channel) != 0)
         throw Error("no pipe");
-    const std::string screen = fmt::format("{}x{}x24", width, height);
+    const std::string screen = fmt::format("{}x{}x{}", width_, height_, bitsPerPixel);
     const std::string descriptor = fmt::format("{}", channel[1]);
     server_ = ::fork();
     if (server_ == 0) {
@@ -109,6 +110,23 @@ void Desktop::takeFocus() {
 void Desktop::returnFocus() {
     XSetInputFocus(connection_->display, focused_, RevertToNone, CurrentTime);
     XSync(connection_->display, False);
+}
+
+void Desktop::scaleTo(int percent) {
+    Display* display = connection_->display;
+    const std::string resources = fmt::format("Xft.dpi:\t{}\n", 96 * percent / 100);
+    XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8,
+                    PropModeReplace, reinterpret_cast<const unsigned char*>(resources.data()),
+                    static_cast<int>(resources.size()));
+    XSync(display, False);
+}
+
+void Desktop::startCompositor() {
+    Display* display = connection_->display;
+    const Window owner =
+        XCreateSimpleWindow(display, DefaultRootWindow(display), 0, 0, 1, 1, 0, 0, 0);
+    XSetSelectionOwner(display, XInternAtom(display, "_NET_WM_CM_S0", False), owner, CurrentTime);
+    XSync(display, False);
 }
 
 Image8 Desktop::look() const {

@@ -12,7 +12,7 @@ namespace obscura::test {
 // A virtual screen of its own (Xvfb), with fingers (XTest) and eyes. Dies with this object.
 class Desktop {
   public:
-    Desktop(int width, int height);
+    Desktop(int width, int height, int bitsPerPixel = 24);
     ~Desktop();
     Desktop(const Desktop&) = delete;
     Desktop& operator=(const Desktop&) = delete;
@@ -29,6 +29,11 @@ class Desktop {
     void takeFocus();
     void returnFocus();
 
+    // What a desktop's settings do when they scale everything to that many percent.
+    void scaleTo(int percent);
+    // From now on there is one who composes windows, as far as windows can tell.
+    void startCompositor();
+
     Image8 look() const; // the whole screen, RGB
     // Of the presenter's window; "" when there is none. It changes once the presenter knows that
     // what it names is on the screen, and keys count.
@@ -37,7 +42,7 @@ class Desktop {
 
   private:
     struct Connection;
-    void start(int width, int height);
+    void start(int bitsPerPixel);
 
     int width_, height_;
     pid_t server_ = 0;

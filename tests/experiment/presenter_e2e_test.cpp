@@ -19,6 +19,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <fstream>
 #include <thread>
 
 namespace obscura {
@@ -446,6 +447,26 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
     desktop.tap(XK_Escape);
     seesLeave(desktop, program);
     EXPECT_EQ(leavePage(texts).options.at(1).label, "Abbrechen");
+}
+
+// Killed after the first pair, and its tables damaged besides: the next start completes them.
+TEST_F(PresenterTest, ASessionThatBrokeOffIsCompletedFromItsJournal) {
+    open({.mask = 0.3});
+    test::Desktop desktop(width, height);
+    {
+        Program program(desktop.name(), arguments({"--participant", "P01"}), output);
+        begin(desktop, program);
+        runPair(desktop, program, 1, XK_2);
+        seesStart(desktop, program, 2);
+        program.kill();
+    }
+    const std::string whole = readFile(dataFolder().rows({"P01", 1, false}));
+    ASSERT_EQ(rows("P01").size(), 1u);
+    std::ofstream(dataFolder().rows({"P01", 1, false}), std::ios::trunc) << responseHeader();
+    Program second(desktop.name(), arguments({"--participant", "P02"}), output);
+    sees(desktop, second, "instructions", drawn(instructionsPage(texts)).image);
+    EXPECT_EQ(readFile(dataFolder().rows({"P01", 1, false})), whole);
+    EXPECT_THAT(second.output(), testing::HasSubstr("the session of P01 broke off"));
 }
 
 TEST_F(PresenterTest, ATextThatNoFontCanShowIsRefusedBeforeTheSession) {

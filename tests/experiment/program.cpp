@@ -84,6 +84,8 @@ void Program::kill() {
     process_ = 0;
 }
 
+void Program::signal(int number) { ::kill(process_, number); }
+
 void Program::freeze() {
     ::kill(process_, SIGSTOP);
     int status = 0;

@@ -25,6 +25,7 @@ class Program {
     void await(const std::string& what, const std::function<bool()>& reached);
     int wait(); // for its end: its exit status
     void kill();
+    void signal(int number);
     void freeze();
     void thaw();
 

@@ -141,6 +141,17 @@ TEST(Trial, ALateStampIsNoMissedRefresh) {
         << "above 1.2 frames it is marked all the same";
 }
 
+// Wherever in the mask: a short interval before a long one is no refresh that was not.
+TEST(Trial, AShortIntervalBeforeALongOneEndsNoMaskEarly) {
+    for (int at = 1; at < 30; ++at) { // the first interval is that before its onset
+        Bench bench(0.5);
+        bench.toMask();
+        for (int swaps = 0; bench.machine.screen() == test::mask; ++swaps)
+            bench.step(swaps == at ? 0.2 * frame : swaps == at + 1 ? 1.8 * frame : frame);
+        EXPECT_EQ(bench.maskShown, 30) << at;
+    }
+}
+
 // Drivers may queue the first swaps after a still picture.
 TEST(Trial, SwapsThatReturnEarlyStillCountAsOneRefreshEach) {
     Bench bench(0.5);
