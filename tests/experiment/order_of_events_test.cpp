@@ -64,7 +64,7 @@ class QuickObserver : public HastyObserver {
         return HastyObserver::show(trial);
     }
     std::vector<Event> events(bool wait) override {
-        if (!trial_->form() || (!wait && !trial_->form()->touched()))
+        if (!trial_->form() || (!wait && trial_->form()->changes() == 0))
             return {};
         return press(trial_->form()->answered(static_cast<std::size_t>(trial_->form()->focus()))
                          ? gl::Key::enter
