@@ -70,13 +70,16 @@ fault missed-threshold experiment/timing_count.cpp \
     's|missedInterval = 1\.2|missedInterval = 1.5|' \
     experiment_test 'Trial.*'
 fault key-before-onset experiment/trial.cpp \
-    's/pending_ \|\| event\.time < since_/pending_/' \
+    's/visible_ != screen_ \|\| event\.time < since_/visible_ != screen_/' \
     experiment_test 'Trial.*'
 fault shown-before-events experiment/session.cpp \
-    's|= observer\.show\(machine\.screen\(\)\);|& machine.shown(time);|; /^ +machine\.shown\(time\);$/d' \
+    's|anew = machine\.isOn\(\)|anew = machine.isOn() \|\| machine.screen() >= 0|' \
+    experiment_test 'OrderOfEventsTest.*'
+fault redraw-taken-for-shown experiment/session.cpp \
+    's|anew = machine\.isOn\(\)|anew = machine.isOn() \&\& machine.screen() < -1|' \
     experiment_test 'OrderOfEventsTest.*'
 fault minimum-view-lost experiment/trial.cpp \
-    's|viewed\(screen_, time\) < minimumView_|viewed(screen_, time) < 0 * minimumView_|' \
+    's|viewed\(screen_, time\) < phase\(screen_\)\.atLeast|viewed(screen_, time) < 0 * phase(screen_).atLeast|' \
     experiment_test 'MinimumView.*'
 fault mask-rounding experiment/refresh.cpp \
     's|seconds \* hz - 0\.25|seconds * hz|' \
@@ -115,7 +118,7 @@ fault unit-lost experiment/row.cpp \
     's|row\.view2Ms = 1000 \* |row.view2Ms = |' \
     experiment_test 'SimulationTest.TimesAddUp'
 fault answer-swapped experiment/row.cpp \
-    's|\(trial\.chosen == 2\) == \(row\.firstIs == "a"\)|(trial.chosen == 2)|' \
+    's|\(row\.chosenPosition == 2\) == \(row\.firstIs == "a"\)|(row.chosenPosition == 2)|' \
     experiment_test 'SimulationTest.*'
 fault shuffle-short base/random.h \
     's|below\(static_cast<std::uint32_t>\(i\)\)|below(static_cast<std::uint32_t>(i - 1))|' \
