@@ -34,7 +34,12 @@ std::vector<fs::path> filesOf(const fs::path& given) {
         if (isDataFile(entry))
             files.push_back(entry.path());
     if (files.empty())
-        throw Error({folder.string(), 0, 0, {}}, "expected CSV files of responses, found none");
+        throw Error({folder.string(), 0, 0, {}},
+                    fs::exists(given / "sessions" / "design.json")
+                        ? "expected rows of pairs, found none: the trials of this study are no "
+                          "pairs, and this program reads only those so far. Its answers are in "
+                          "sessions/*_answers.csv"
+                        : "expected CSV files of responses, found none");
     std::sort(files.begin(), files.end());
     return files;
 }

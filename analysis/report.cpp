@@ -87,12 +87,18 @@ std::string occlusionTable(const Manifest& stimuli) {
                        "<th>technique</th><th class=\"number\">mean occlusion</th>"
                        "<th class=\"number\">radius, m</th></tr></thead>\n<tbody>\n";
     for (const ConditionRecord& condition : stimuli.conditions)
-        for (const ImageRecord& image : condition.images)
+        for (const ImageRecord& image : condition.images) {
+            const bool first = &image == &condition.images.front();
+            const auto once = [&](const std::string& cell) { return first ? cell : ""; };
+            const std::size_t rows = condition.images.size();
             html +=
-                fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td>"
-                            "<td class=\"number\">{:.3f}</td><td class=\"number\">{:g}</td></tr>\n",
-                            escaped(condition.condition), escaped(image.role), escaped(image.name),
-                            image.meanOcclusion, condition.radius);
+                fmt::format("<tr>{}<td>{}</td><td>{}</td><td class=\"number\">{:.3f}</td>{}</tr>\n",
+                            once(fmt::format("<th scope=\"row\" rowspan=\"{}\">{}</th>", rows,
+                                             escaped(condition.condition))),
+                            escaped(image.role), escaped(image.name), image.meanOcclusion,
+                            once(fmt::format("<td class=\"number\" rowspan=\"{}\">{:g}</td>", rows,
+                                             condition.radius)));
+        }
     return html + "</tbody></table></div>\n";
 }
 

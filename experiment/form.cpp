@@ -14,7 +14,7 @@ namespace {
 using Kind = Question::Kind;
 
 constexpr int sliderSteps = 100;
-constexpr std::size_t longestText = 200; // characters
+constexpr std::size_t longestText = 200; // bytes of UTF-8
 
 bool hasOptions(const Question& question) {
     return question.kind == Kind::choice || question.kind == Kind::scale;

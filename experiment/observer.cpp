@@ -104,7 +104,7 @@ std::vector<Event> SimulatedObserver::type(const Question& question, double afte
     std::vector<Event> events;
     const bool number = question.kind == Question::Kind::number;
     for (const char letter :
-         number ? fmt::format("{:.0f}", (question.least + question.most) / 2) : "x") {
+         number ? fmt::format("{}", (question.least + question.most) / 2) : "x") {
         Event event{Event::Kind::text, clock_};
         event.symbol = static_cast<unsigned char>(letter);
         events.push_back(event);

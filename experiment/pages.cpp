@@ -137,6 +137,13 @@ Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictur
     return page;
 }
 
+Page restPage(const Texts& texts) {
+    Page page;
+    page.text = texts.rest;
+    page.options = {{texts.space, ""}};
+    return page;
+}
+
 Page leavePage(const Texts& texts) {
     Page page;
     page.heading = texts.leave;

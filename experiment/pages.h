@@ -21,6 +21,7 @@ Page textPage(const Texts& texts, const Phase& phase, int pair, int pairs);
 Page::Pictures roomFor(const Phase& phase, int width, int height);
 // Of a phase that asks, as far as it is answered, with room for the images that it shows.
 Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures);
+Page restPage(const Texts& texts); // a break between trials
 Page leavePage(const Texts& texts);
 Page thanksPage(const Texts& texts);
 

@@ -67,8 +67,8 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
     display_.window().poll(); // what was pressed meanwhile was meant for nobody
 }
 
-// Texts that do not fit should stop the session before it begins. They need most room while another
-// window has the keyboard.
+// Texts that do not fit, and images beside each other, should stop the session before it begins.
+// Texts need most room while another window has the keyboard.
 void Presenter::checkFits() const {
     const int pairs = longest(study_.protocol), images = imageCount(study_);
     const gl::Window& window = display_.window();
@@ -76,6 +76,7 @@ void Presenter::checkFits() const {
                                idPage(texts_, "", texts_.idMalformed),
                                idPage(texts_, "", texts_.idTaken),
                                instructionsPage(texts_),
+                               restPage(texts_),
                                leavePage(texts_),
                                thanksPage(texts_)};
     for (const Phase& phase : phases_)
@@ -83,6 +84,8 @@ void Presenter::checkFits() const {
             pages.push_back(formPage(texts_, Form(phase.questions, places()), room(phase)));
         else if (!phase.text.empty())
             pages.push_back(textPage(texts_, phase, pairs, pairs));
+        else if (!phase.images.empty())
+            gridOn(phase);
     for (Page& page : pages) {
         page.warning = warning_;
         drawPage(unfocused(page, texts_), window.width(), window.height(),
@@ -168,7 +171,8 @@ double Presenter::showSheet(const Sheet& page) {
         unfocused_ = drawn(unfocused(page.page, texts_), page.title);
         unfocused_.images = page.images;
     }
-    return display_.show(placedOn(focused_ ? page : unfocused_), study_.protocol.trial.grey);
+    return display_.show(placedOn(focused_ ? page : unfocused_), study_.protocol.trial.grey,
+                         !page.images.empty());
 }
 
 double Presenter::showImages(std::span<const Placed> images, int grey) {
@@ -179,19 +183,33 @@ double Presenter::showImages(std::span<const Placed> images, int grey) {
     return display_.show(images_, grey_, !images_.empty());
 }
 
-// Images beside each other in the middle of the screen, or all in the same place where they are
-// shown in turn.
-std::vector<Placed> Presenter::placed(const Phase& phase) const {
+// Places beside each other in the middle of the screen, or one where images are shown in turn.
+std::vector<Box> Presenter::gridOn(const Phase& phase) const {
     const gl::Window& window = display_.window();
     Page::Pictures pictures = room(phase);
     if (phase.alternate > 0)
         pictures.count = 1;
-    const std::vector<Box> boxes = gridOf(pictures, window.width(), 0);
-    const int top = (window.height() - boxes.back().y - boxes.back().height) / 2;
+    std::vector<Box> boxes = gridOf(pictures, window.width(), 0);
+    const int height = boxes.back().y + boxes.back().height;
+    if (boxes.front().x < 0 || height > window.height())
+        throw Error(
+            phase.place,
+            fmt::format("{} images of {}x{} pixels do not fit beside each other on a screen "
+                        "of {}x{}, and are never scaled; choose a larger monitor "
+                        "(--monitor), or a smaller image size in the protocol",
+                        pictures.count, pictures.width, pictures.height, window.width(),
+                        window.height()));
+    for (Box& box : boxes)
+        box.y += (window.height() - height) / 2;
+    return boxes;
+}
+
+std::vector<Placed> Presenter::placed(const Phase& phase) const {
+    const std::vector<Box> boxes = gridOn(phase);
     std::vector<Placed> result;
     for (std::size_t i = 0; i < phase.images.size(); ++i) {
         const Box& box = boxes[std::min(i, boxes.size() - 1)];
-        result.push_back({&picture(phase.images[i]), box.x, box.y + top});
+        result.push_back({&picture(phase.images[i]), box.x, box.y});
     }
     return result;
 }
@@ -313,12 +331,7 @@ bool Presenter::leaves() {
 
 bool Presenter::instruct() { return read(sheet(instructionsPage(texts_), "instructions")); }
 
-bool Presenter::rest() {
-    Page page;
-    page.text = texts_.rest;
-    page.options = {{texts_.space, ""}};
-    return read(sheet(std::move(page), "break"));
-}
+bool Presenter::rest() { return read(sheet(restPage(texts_), "break")); }
 
 void Presenter::thank() {
     const Sheet page = sheet(thanksPage(texts_), "thanks");

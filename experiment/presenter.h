@@ -70,6 +70,7 @@ class Presenter : public Observer {
     double showImages(std::span<const Placed> images, int grey);
     std::vector<Placed> placedOn(const Sheet& sheet) const;
     const gl::Picture& picture(const std::string& image) const;
+    std::vector<Box> gridOn(const Phase& phase) const;
     std::vector<Placed> placed(const Phase& phase) const;
     Sheet formSheet(const Form& form, const Phase& phase) const;
     Page::Pictures room(const Phase& phase) const;

@@ -140,10 +140,10 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
 
     bool completed = false;
     std::string reason = "left before the last trial";
-    std::vector<double> maskIntervals;
+    std::vector<double> intervals;
     std::optional<EndedBySignal> ended;
     try {
-        completed = observer.instruct() && playAll(context, observer, recorder, maskIntervals);
+        completed = observer.instruct() && playAll(context, observer, recorder, intervals);
         if (completed)
             reason = "completed";
     } catch (const EndedBySignal& signal) {
@@ -151,7 +151,7 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
         reason = "ended by " + signal.name();
     }
     recorder.end(reason);
-    addOutcome(sidecar, reason, maskIntervals, refresh.hz);
+    addOutcome(sidecar, reason, intervals, refresh.hz);
     writeFile(folder.sidecar(session), sidecar.dump(2) + "\n");
     if (completed && claim)
         claim->complete();

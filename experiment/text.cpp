@@ -19,7 +19,7 @@ namespace {
 using LayoutIter = std::unique_ptr<PangoLayoutIter, Call<pango_layout_iter_free>>;
 using FontOptions = std::unique_ptr<cairo_font_options_t, Call<cairo_font_options_destroy>>;
 
-struct Placed {
+struct PlacedPage {
     double bottom = 0;
     std::vector<Box> options, pictures;
 };
@@ -38,8 +38,8 @@ void placePart(Setter& setter, const Page::Part& part, std::vector<Box>& options
 }
 
 // `top` is where the content begins, below the warning.
-Placed place(Setter& setter, const Page& page, double top) {
-    Placed placed;
+PlacedPage place(Setter& setter, const Page& page, double top) {
+    PlacedPage placed;
     setter.y = top;
     if (page.pictures.count > 0) {
         placed.pictures = setter.pictures(page.pictures);
@@ -71,8 +71,8 @@ Placed place(Setter& setter, const Page& page, double top) {
 }
 
 // Draws the page, or nothing when it does not fit with type of this size.
-std::optional<Placed> trySize(cairo_t* cairo, const Page& page, const Palette& palette, int width,
-                              int height, double em, bool breaksWords) {
+std::optional<PlacedPage> trySize(cairo_t* cairo, const Page& page, const Palette& palette,
+                                  int width, int height, double em, bool breaksWords) {
     Setter setter(cairo, palette, width, em);
     setter.breaksWords = breaksWords;
     if (!page.warning.empty())
@@ -135,6 +135,12 @@ DrawnPage drawPage(const Page& page, int width, int height, int grey) {
                     trySize(canvas.cairo(), page, palette, width, height, em, breaksWords))
                 return {canvas.finish(), std::move(placed->options), std::move(placed->pictures)};
         }
+    if (const Page::Pictures& pictures = page.pictures; pictures.count > 0)
+        throw Error(fmt::format(
+            "{} images of {}x{} pixels and what is asked beside them do not fit "
+            "on a screen of {}x{}, and images are never scaled: {}; choose a "
+            "larger monitor (--monitor), smaller images or shorter texts",
+            pictures.count, pictures.width, pictures.height, width, height, opening(page)));
     throw Error(fmt::format("a text is too long for a screen of {}x{} pixels, even in small type: "
                             "{}; shorten it in the protocol, or take a larger screen",
                             width, height, opening(page)));

@@ -128,6 +128,25 @@ fault signal-unheard experiment/signals.cpp \
     's#if \(noted\)#if (noted \&\& !heeded[0])#' \
     signals_e2e_test '*'
 
+fault break-unchecked experiment/presenter.cpp \
+    's|^ +restPage\(texts_\),$||' \
+    presenter_e2e_test '*ABreaksText*'
+fault images-off-screen experiment/presenter.cpp \
+    's#boxes\.front\(\)\.x < 0 \|\| height > window\.height\(\)#boxes.front().x < 0#' \
+    presenter_e2e_test '*BesideEachOther*'
+fault torn-table-kept experiment/recorder.cpp \
+    's|file\.append\(whole\.substr\(content\.size\(\)\)\)|content.size()|' \
+    experiment_test 'RecorderTest.*:Killed.*'
+fault ranges-forgotten experiment/form.cpp \
+    's|number >= asked\.least \&\& number <= asked\.most|number >= asked.least|' \
+    experiment_test 'FormTest.*'
+fault role-of-the-other experiment/observer.cpp \
+    's|return order\[i\];|return order[order.size() - 1 - i];|' \
+    experiment_test 'SimulationTest.*'
+fault phases-out-of-the-design protocols/reader/design.cpp \
+    's#\{"phases", toJson\(given\)\}#{"phases", given.size()}#' \
+    protocols_test 'TrialPhases.*'
+
 # Of statistics and choices.
 fault votes-swapped analysis/votes.cpp \
     's|choseB \? votes\.b : votes\.a|choseB ? votes.a : votes.b|' \

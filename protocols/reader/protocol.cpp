@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <regex>
 #include <set>
 
@@ -179,6 +180,11 @@ void parseRoles(TomlTable& table, Condition& condition, const Protocol& protocol
                                 TomlTable::spell(*roles)));
     for (const auto& [name, node] : *named) {
         checkName(table, "roles", std::string(name.str()), "", "");
+        if (std::isdigit(static_cast<unsigned char>(name.str().front())))
+            throw Error(table.placeOf(node, table.pathOf(fmt::format("roles.{}", name.str()))),
+                        fmt::format("expected a role that begins with a letter, for numbers are "
+                                    "places in the order; found \"{}\"",
+                                    name.str()));
         condition.roles.push_back(
             {std::string(name.str()),
              parseMember(table, node, fmt::format("roles.{}", name.str()), protocol)});

@@ -409,5 +409,27 @@ TEST_F(SimulationTest, AMissingPairIsRefused) {
                 ThrowsMessage<Error>(HasSubstr("expected the images of condition \"c7\"")));
 }
 
+TEST(SimulatedObserverTest, TypesANumberThatANarrowRangeTakes) {
+    Question share;
+    share.name = "share";
+    share.kind = Question::Kind::number;
+    share.least = 0.1, share.most = 0.4;
+    Phase phase;
+    phase.name = "ask";
+    phase.questions = {share};
+    const Protocol protocol;
+    SimulatedObserver observer(protocol, 1, "S01");
+    TrialMachine machine({phase}, 2, 60);
+    machine.journalled();
+    for (int i = 0; i < 10 && machine.next() != TrialMachine::Next::finished; ++i) {
+        if (machine.next() == TrialMachine::Next::present)
+            machine.shown(observer.show(machine));
+        for (const Event& event : observer.events(true))
+            machine.handle(event);
+    }
+    ASSERT_EQ(machine.next(), TrialMachine::Next::finished);
+    EXPECT_EQ(machine.record().answers[0].value, "0.25");
+}
+
 } // namespace
 } // namespace obscura
