@@ -144,7 +144,7 @@ fault role-of-the-other experiment/observer.cpp \
     's|return order\[i\];|return order[order.size() - 1 - i];|' \
     experiment_test 'SimulationTest.*'
 fault phases-out-of-the-design protocols/reader/design.cpp \
-    's#\{"phases", toJson\(given\)\}#{"phases", given.size()}#' \
+    's#\{"phases", toJson\(given\)\}#{"phases", toJson(std::vector<Phase>(given.size()))}#' \
     protocols_test 'TrialPhases.*'
 
 # Of statistics and choices.
