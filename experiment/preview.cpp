@@ -166,7 +166,7 @@ Image8 previewSheet(const Study& study, int width, int height) {
         const PreviewedScreen& screen = screens[static_cast<std::size_t>(i)];
         const int x = margin + i % columns * cellWidth, y = header + i / columns * cellHeight;
         sheet.text(x, y, fmt::format("<b>{}. {}</b>", i + 1, escaped(screen.name)), 18);
-        sheet.text(x, y + 24, escaped(screen.end), 16);
+        sheet.text(x, y + 24, "ends: " + escaped(screen.end), 16);
         sheet.text(x, y + 46, escaped(screen.shown), 16);
         sheet.image(x, y + caption, shrunk(screen.image, halfWidth, halfHeight));
         sheet.frame(x, y + caption, halfWidth, halfHeight);
