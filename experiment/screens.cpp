@@ -81,7 +81,7 @@ void Screens::check() const {
     for (const Page& each :
          {loadingPage(texts, images, images), idPage(texts, "", texts.idMalformed),
           idPage(texts, "", texts.idTaken), instructionsPage(texts), restPage(texts),
-          leavePage(texts), thanksPage(texts)})
+          leavePage(texts), resumePage(texts, trials, trials), thanksPage(texts)})
         unfocused(page(each));
     for (const Phase& each : phasesOf(protocol_.trial))
         if (const Screenful screen = phase(each, trials, trials); screen.drawn)
