@@ -4,6 +4,7 @@
 #include "experiment/pages.h"
 #include "experiment/play.h"
 #include "experiment/screens.h"
+#include "experiment/simulated.h"
 
 #include <fmt/format.h>
 

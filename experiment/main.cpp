@@ -14,6 +14,7 @@
 #include "experiment/recorder.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
+#include "experiment/simulated.h"
 #include "experiment/timing_command.h"
 
 #include <CLI/CLI.hpp>
