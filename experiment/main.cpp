@@ -16,6 +16,7 @@
 #include "experiment/signals.h"
 #include "experiment/simulated.h"
 #include "experiment/timing_command.h"
+#include "experiment/visual.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -41,7 +42,7 @@ struct Arguments {
     int monitor = 1;
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
-    bool simulate = false, resume = false;
+    bool simulate = false, visual = false, resume = false;
     int simulated = 0; // how many; 0 as the protocol plans
     std::optional<std::uint64_t> seed;
     fs::path preview;
@@ -128,6 +129,9 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "Seed of the simulated participants; the protocol's when not given")
         ->type_name("S")
         ->needs(simulate);
+    app.add_flag("--visual", arguments.visual,
+                 "Run them through the real window, full screen, by keys that they press")
+        ->needs(simulate);
     CLI::Option* preview =
         app.add_option("--preview", arguments.preview,
                        "Draw every screen of a trial, and the pages around it, on one sheet (PNG), "
@@ -164,25 +168,6 @@ void checkFolder(const DataFolder& folder, const Study& study) {
         fmt::print(stderr, "obscura-experiment: {}\n", unknown);
 }
 
-int simulate(const Arguments& arguments, const Study& study) {
-    verifyStimuli(study.manifest);
-    const Protocol& protocol = study.protocol;
-    const DataFolder folder(arguments.data, protocol);
-    checkFolder(folder, study);
-    const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
-    Progress progress("simulated participants", count);
-    for (int i = 1; i <= count; ++i) {
-        const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
-        if (const std::string problem = objection(folder, session); !problem.empty())
-            throw Error(problem + "; or another data folder: --data DIR");
-        SimulatedObserver observer(protocol, arguments.seed.value_or(protocol.seed),
-                                   session.participant);
-        runSession(study, folder, session, observer);
-        progress.update(i, session.participant);
-    }
-    return 0;
-}
-
 gl::WindowOptions::Size sizeOf(const std::string& option, const std::string& text) {
     const auto size = parsePair(text, 'x');
     if (!size || std::max(size->first, size->second) > 16384)
@@ -198,6 +183,40 @@ gl::WindowOptions windowOptions(const Arguments& arguments) {
                                ? gl::WindowOptions::Size{1280, 800}
                                : sizeOf("--windowed", arguments.windowSize);
     return options;
+}
+
+DisplayOptions displayOptions(const Arguments& arguments, const Study& study) {
+    return {windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode};
+}
+
+int simulate(const Arguments& arguments, const Study& study) {
+    verifyStimuli(study.manifest);
+    const Protocol& protocol = study.protocol;
+    const DataFolder folder(arguments.data, protocol);
+    checkFolder(folder, study);
+    const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
+    std::optional<Display> display;
+    std::optional<Presenter> presenter;
+    if (arguments.visual) {
+        display.emplace(displayOptions(arguments, study), curtain(study));
+        presenter.emplace(*display, study, "Simulated participant: answers do not count");
+    }
+    Progress progress("simulated participants", count);
+    for (int i = 1; i <= count; ++i) {
+        const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
+        if (const std::string problem = objection(folder, session); !problem.empty())
+            throw Error(problem + "; or another data folder: --data DIR");
+        const std::uint64_t seed = arguments.seed.value_or(protocol.seed);
+        if (presenter) {
+            VisualObserver observer(*presenter, protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        } else {
+            SimulatedObserver observer(protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        }
+        progress.update(i, session.participant);
+    }
+    return 0;
 }
 
 // What stands above every page of text, and on stderr: the session is no measurement. An Error on
@@ -292,8 +311,7 @@ int present(const Arguments& arguments, const Study& study) {
     if (!arguments.participant.empty())
         checkParticipant(arguments, study, folder, sessionOf(arguments.participant));
 
-    Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
-                    curtain(study));
+    Display display(displayOptions(arguments, study), curtain(study));
     Presenter presenter(display, study, warning(arguments, display));
     const std::optional<std::string> id = arguments.participant.empty()
                                               ? presenter.askId([&](const std::string& typed) {

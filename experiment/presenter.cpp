@@ -152,7 +152,10 @@ std::vector<gl::Input> Presenter::inputs() {
     if (sheet_ && focused_ != display_.window().focused())
         showSheet(*sheet_);
     announce();
-    std::vector<gl::Input> inputs = display_.window().wait();
+    std::vector<gl::Input> inputs;
+    do
+        inputs = attend_ ? display_.window().wait(attend_()) : display_.window().wait();
+    while (inputs.empty());
     const bool uncovered = std::any_of(inputs.begin(), inputs.end(), [](const gl::Input& input) {
         return input.kind == gl::Input::Kind::exposed;
     });

@@ -41,6 +41,12 @@ class Presenter : public Observer {
     // off, until the experimenter confirms that it goes on; nothing when Escape was pressed.
     std::optional<std::string> askId(const std::function<IdVerdict(const std::string&)>& judge);
 
+    // For one who is not a person: called before the presenter sleeps, with all on the screen, and
+    // again after the seconds that it returns, should nothing arrive before.
+    void whileWaiting(std::function<double()> attend) { attend_ = std::move(attend); }
+    double now() const { return display_.window().now(); }
+    bool hasKeyboard() const { return display_.window().focused(); }
+
     Refresh refresh() const override { return display_.refresh(); }
     void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
     bool instruct() override;
@@ -103,6 +109,7 @@ class Presenter : public Observer {
     Sheet unfocused_;       // this in its place
     std::string title_;     // what is on the screen, and
     std::string announced_; // what the window's title says
+    std::function<double()> attend_;
 };
 
 } // namespace obscura
