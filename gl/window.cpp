@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace obscura::gl {
@@ -288,10 +289,11 @@ const std::vector<Input>& Window::poll() {
     return take();
 }
 
-const std::vector<Input>& Window::wait() {
-    constexpr double interval = 0.1; // seconds between calls of interrupt_
-    for (interrupt_(); inputs_.empty(); interrupt_()) {
-        glfwWaitEventsTimeout(interval);
+const std::vector<Input>& Window::wait(double atMost) {
+    constexpr double interval = 0.1, least = 1e-4; // seconds between calls of interrupt_
+    const double end = now() + atMost;
+    for (interrupt_(); inputs_.empty() && now() < end; interrupt_()) {
+        glfwWaitEventsTimeout(std::clamp(end - now(), least, interval));
         checkScreen();
     }
     return take();

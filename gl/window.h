@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -88,8 +89,8 @@ class Window {
 
     // What has arrived, without waiting or allocating; valid until the next call.
     const std::vector<Input>& poll();
-    // The same, but sleeps until something arrives.
-    const std::vector<Input>& wait();
+    // The same, but sleeps until something arrives, or for so many seconds.
+    const std::vector<Input>& wait(double atMost = std::numeric_limits<double>::infinity());
     void showCursor(bool visible);
     bool focused() const; // whether the keyboard is ours
     void setTitle(const std::string& title);
