@@ -198,9 +198,11 @@ void Window::listen() {
     });
 }
 
-void Window::checkScreen() const {
+void Window::checkScreen() {
     if (!lost_.empty())
         throw Error(lost_);
+    if (sleep_.slept())
+        inputs_.push_back(stamped(Input::Kind::focusLost));
 }
 
 Input Window::stamped(Input::Kind kind) const {

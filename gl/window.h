@@ -3,6 +3,7 @@
 #include "gl/context.h"
 #include "gl/input.h"
 #include "gl/picture.h"
+#include "gl/sleep_watch.h"
 
 #include <array>
 #include <chrono>
@@ -49,7 +50,8 @@ struct Onset {
 // A window with an OpenGL 4.5 context for showing pictures pixel by pixel: double-buffered,
 // synchronised to the vertical blank where the driver can, its framebuffer 8 bits and not sRGB.
 // Input is collected with the time at which it arrived. poll(), swap() and wait() throw an Error
-// once its monitor has been disconnected, or its size has changed.
+// once its monitor has been disconnected, or its size has changed. After the machine was suspended,
+// the keyboard counts as lost.
 class Window {
   public:
     explicit Window(const WindowOptions& options);
@@ -110,7 +112,7 @@ class Window {
 
     void open(const WindowOptions& options);
     void listen();
-    void checkScreen() const;
+    void checkScreen();
     Input stamped(Input::Kind kind) const;
     const std::vector<Input>& take();
     Onset awaitOnset() const;
@@ -123,6 +125,7 @@ class Window {
     int width_ = 0, height_ = 0;
     std::vector<Input> inputs_, taken_;
     void (*interrupt_)();
+    SleepWatch sleep_;
     std::string lost_; // why nothing can be shown any more; "" for nothing
     Stamp stamp_ = Stamp::finish;
 };
