@@ -29,7 +29,7 @@ class Trier : public SimulatedObserver {
         screen_ = trial.screen();
         return SimulatedObserver::show(trial);
     }
-    std::vector<Event> events(bool wait) override {
+    const std::vector<Event>& events(bool wait) override {
         if (wait && ++keys_ > mostKeys)
             throw Error(phases_.at(static_cast<std::size_t>(screen_)).place,
                         fmt::format("expected a phase that ends; a simulated participant has "

@@ -35,8 +35,9 @@ class Observer {
     virtual void prepare(const Upcoming& trial) = 0;
     // Shows the screen that the prepared trial wants; the time at which it came on.
     virtual double show(const TrialMachine& trial) = 0;
-    // What the person has done since; with `wait`, sleeps until there is something.
-    virtual std::vector<Event> events(bool wait) = 0;
+    // What the person has done since; with `wait`, sleeps until there is something. Valid until the
+    // next call.
+    virtual const std::vector<Event>& events(bool wait) = 0;
     virtual bool rest() = 0; // between trials; false when the person leaves instead of going on
     virtual void thank() = 0;
 };

@@ -14,7 +14,8 @@ namespace obscura {
 
 namespace {
 
-constexpr double progressInterval = 0.1; // seconds
+constexpr double progressInterval = 0.1;    // seconds
+constexpr std::size_t expectedEvents = 256; // between two calls of events()
 constexpr const char* idTitle = "who takes part?";
 
 gl::Picture upload(const Image8& image) {
@@ -60,6 +61,7 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
             prepared_[i].sheet = uploaded(screens_.phase(phase, 1, 1), "");
         }
     display_.window().poll(); // what was pressed meanwhile was meant for nobody
+    events_.reserve(expectedEvents);
 }
 
 // Files are read and decoded by as many threads as there are cores, no further ahead than that.
@@ -97,8 +99,8 @@ void Presenter::loadImages() {
     }
 }
 
-Presenter::Sheet Presenter::sheet(Page page, std::string title) const {
-    return uploaded(screens_.page(std::move(page)), std::move(title));
+Presenter::Sheet Presenter::sheet(Page page, const std::string& title) const {
+    return uploaded(screens_.page(std::move(page)), "Obscura: " + title);
 }
 
 Presenter::Sheet Presenter::uploaded(Screenful screen, std::string title) const {
@@ -111,11 +113,9 @@ const gl::Picture& Presenter::picture(const std::string& image) const {
     return pictures_.at(static_cast<std::size_t>(trial_.planned.condition)).at(trial_.role(image));
 }
 
-std::vector<Placed> Presenter::placed(const Screenful& screen) const {
-    std::vector<Placed> placed;
+void Presenter::place(const Screenful& screen, std::vector<Placed>& placed) const {
     for (std::size_t i = 0; i < screen.images.size(); ++i)
         placed.push_back({&picture(screen.images[i]), screen.places[i].x, screen.places[i].y});
-    return placed;
 }
 
 double Presenter::showSheet(const Sheet& page) {
@@ -126,9 +126,9 @@ double Presenter::showSheet(const Sheet& page) {
     if (!focused_)
         unfocused_ = uploaded(screens_.unfocused(page.screen), page.title);
     const Sheet& shown = focused_ ? page : unfocused_;
-    std::vector<Placed> all = placed(shown.screen);
-    all.insert(all.begin(), {&shown.picture, 0, 0});
-    return display_.show(all, shown.screen.grey, !page.screen.images.empty());
+    placed_.assign(1, {&shown.picture, 0, 0});
+    place(shown.screen, placed_);
+    return display_.show(placed_, shown.screen.grey, !page.screen.images.empty());
 }
 
 double Presenter::showImages(std::span<const Placed> images, int grey) {
@@ -142,60 +142,60 @@ double Presenter::showImages(std::span<const Placed> images, int grey) {
 void Presenter::announce() {
     if (announced_ == title_)
         return;
-    display_.window().setTitle("Obscura: " + title_);
+    display_.window().setTitle(title_);
     announced_ = title_;
 }
 
 // Sleeps until there is input. Before it sleeps, it announces in the window's title what is on the
 // screen, and makes a page show whether this window has the keyboard.
-std::vector<gl::Input> Presenter::inputs() {
+const std::vector<gl::Input>& Presenter::inputs() {
     if (sheet_ && focused_ != display_.window().focused())
         showSheet(*sheet_);
     announce();
-    std::vector<gl::Input> inputs;
+    const std::vector<gl::Input>* inputs = nullptr;
     do
-        inputs = attend_ ? display_.window().wait(attend_()) : display_.window().wait();
-    while (inputs.empty());
-    const bool uncovered = std::any_of(inputs.begin(), inputs.end(), [](const gl::Input& input) {
+        inputs = &(attend_ ? display_.window().wait(attend_()) : display_.window().wait());
+    while (inputs->empty());
+    const bool uncovered = std::any_of(inputs->begin(), inputs->end(), [](const gl::Input& input) {
         return input.kind == gl::Input::Kind::exposed;
     });
     if (uncovered && sheet_)
         showSheet(*sheet_);
     else if (uncovered)
         display_.show(images_, grey_, !images_.empty());
-    return inputs;
+    return *inputs;
 }
 
-std::vector<Event> Presenter::events(bool wait) {
+const std::vector<Event>& Presenter::events(bool wait) {
     using Kind = gl::Input::Kind;
-    std::vector<Event> events;
+    events_.clear();
     for (const gl::Input& input : wait ? inputs() : display_.window().poll())
         switch (input.kind) {
         case Kind::press:
-            events.push_back({Event::Kind::press, input.time, input.key});
+            events_.push_back({Event::Kind::press, input.time, input.key});
             break;
         case Kind::release:
-            events.push_back({Event::Kind::release, input.time, input.key});
+            events_.push_back({Event::Kind::release, input.time, input.key});
             break;
         case Kind::focusLost:
-            events.push_back({Event::Kind::focusLost, input.time});
+            events_.push_back({Event::Kind::focusLost, input.time});
             break;
         case Kind::close: // as if Escape were pressed
-            events.push_back({Event::Kind::press, input.time, gl::Key::escape});
-            events.push_back({Event::Kind::release, input.time, gl::Key::escape});
+            events_.push_back({Event::Kind::press, input.time, gl::Key::escape});
+            events_.push_back({Event::Kind::release, input.time, gl::Key::escape});
             break;
         case Kind::click:
             if (const Event event = clicked(input); event.option > 0)
-                events.push_back(event);
+                events_.push_back(event);
             break;
         case Kind::text:
-            events.push_back({Event::Kind::text, input.time, {}, 0, 0, input.symbol});
+            events_.push_back({Event::Kind::text, input.time, {}, 0, 0, input.symbol});
             break;
         case Kind::focusGained:
         case Kind::exposed:
             break;
         }
-    return events;
+    return events_;
 }
 
 // Of the page on the screen, which of its options; 0 when there is none at that place.
@@ -316,8 +316,11 @@ void Presenter::prepare(const Upcoming& trial) {
         prepared.title =
             phase.grey >= 0
                 ? "" // nothing is done but show grey
-                : fmt::format("pair {} of {}, {}{}", trial.index, trial.count, phase.name,
+                : fmt::format("Obscura: pair {} of {}, {}{}", trial.index, trial.count, phase.name,
                               phase.questions.empty() && phase.text.empty() ? " image" : "");
+        title_.reserve(prepared.title.size());
+        announced_.reserve(prepared.title.size());
+        placed_.reserve(1 + phase.images.size());
         if (phase.progress && !phase.text.empty())
             prepared.sheet = uploaded(screens_.phase(phase, trial.index, trial.count), "");
         if (prepared.sheet) {
@@ -325,7 +328,8 @@ void Presenter::prepare(const Upcoming& trial) {
             continue;
         }
         const Screenful screen = screens_.phase(phase, trial.index, trial.count);
-        prepared.images = placed(screen);
+        prepared.images.clear();
+        place(screen, prepared.images);
         prepared.grey = screen.grey;
     }
 }

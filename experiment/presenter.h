@@ -52,7 +52,7 @@ class Presenter : public Observer {
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
     double show(const TrialMachine& trial) override;
-    std::vector<Event> events(bool wait) override;
+    const std::vector<Event>& events(bool wait) override;
     bool rest() override;
     void thank() override;
 
@@ -60,7 +60,7 @@ class Presenter : public Observer {
     // A page in graphics memory.
     struct Sheet {
         Screenful screen;
-        std::string title; // of the window
+        std::string title; // of the window, as all titles here
         gl::Picture picture;
     };
 
@@ -69,18 +69,18 @@ class Presenter : public Observer {
         std::optional<Sheet> sheet; // of a page of text, and of questions not yet answered
         std::vector<Placed> images;
         int grey = 0;      // behind them
-        std::string title; // of the window; "" leaves it as it is
+        std::string title; // "" leaves it as it is
     };
 
-    Sheet sheet(Page page, std::string title) const; // with the warning above it
+    Sheet sheet(Page page, const std::string& title) const; // with the warning above it
     Sheet uploaded(Screenful screen, std::string title) const;
     void loadImages();
     double showSheet(const Sheet& sheet);
     double showImages(std::span<const Placed> images, int grey);
     const gl::Picture& picture(const std::string& image) const;
-    std::vector<Placed> placed(const Screenful& screen) const;
+    void place(const Screenful& screen, std::vector<Placed>& placed) const;
     void announce();
-    std::vector<gl::Input> inputs();
+    const std::vector<gl::Input>& inputs();
     Event clicked(const gl::Input& input) const;
     std::vector<Event> answers();
     void turnTo(const Sheet& page);
@@ -109,6 +109,9 @@ class Presenter : public Observer {
     Sheet unfocused_;       // this in its place
     std::string title_;     // what is on the screen, and
     std::string announced_; // what the window's title says
+    // Used again and again, so that nothing is allocated while a person looks.
+    std::vector<Event> events_;
+    std::vector<Placed> placed_; // of the page on the screen
     std::function<double()> attend_;
 };
 

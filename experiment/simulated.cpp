@@ -131,25 +131,25 @@ double SimulatedObserver::show(const TrialMachine& trial) {
     return clock_;
 }
 
-std::vector<Event> SimulatedObserver::events(bool wait) {
+const std::vector<Event>& SimulatedObserver::events(bool wait) {
+    events_.clear();
     if (!trial_)
-        return {};
+        return events_;
     if (wait) {
         participant_.sees(*trial_, clock_); // a key that changed nothing
         clock_ = std::max(clock_, participant_.next().value_or(clock_));
     }
     const std::optional<Deed> deed = participant_.take(clock_);
     if (!deed)
-        return {};
+        return events_;
     if (deed->typed.empty())
-        return {{Event::Kind::press, deed->time, deed->key},
-                {Event::Kind::release, deed->time + keyDown, deed->key}};
-    std::vector<Event> events;
+        events_ = {{Event::Kind::press, deed->time, deed->key},
+                   {Event::Kind::release, deed->time + keyDown, deed->key}};
     for (const char letter : deed->typed) {
-        events.push_back({Event::Kind::text, deed->time});
-        events.back().symbol = static_cast<unsigned char>(letter);
+        events_.push_back({Event::Kind::text, deed->time});
+        events_.back().symbol = static_cast<unsigned char>(letter);
     }
-    return events;
+    return events_;
 }
 
 } // namespace obscura

@@ -68,7 +68,7 @@ class SimulatedObserver : public Observer {
     bool instruct() override { return true; }
     void prepare(const Upcoming& trial) override { participant_.prepare(trial); }
     double show(const TrialMachine& trial) override; // at the next refresh
-    std::vector<Event> events(bool wait) override;
+    const std::vector<Event>& events(bool wait) override;
     bool rest() override { return true; }
     void thank() override {}
 
@@ -76,6 +76,7 @@ class SimulatedObserver : public Observer {
     SimulatedParticipant participant_;
     const TrialMachine* trial_ = nullptr; // what it shows
     double clock_ = 0;
+    std::vector<Event> events_;
 };
 
 } // namespace obscura

@@ -15,6 +15,12 @@ constexpr double tolerance = 0.25; // refreshes
 
 } // namespace
 
+void RefreshCount::restart() {
+    swaps_ = missed_ = passed_ = 0;
+    onset_ = last_ = behind_ = 0;
+    intervals_.clear();
+}
+
 void RefreshCount::add(double time) {
     const double before = behind_;
     note(time);

@@ -15,6 +15,8 @@ class RefreshCount {
         intervals_.reserve(static_cast<std::size_t>(planned));
     }
 
+    void restart(); // counts from nothing, in the same memory
+
     void add(double time); // a swap of the mask came on; the first is its onset. Seconds
     void end(double time); // what follows the mask came on
 

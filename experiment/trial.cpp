@@ -6,6 +6,25 @@
 
 namespace obscura {
 
+namespace {
+
+constexpr std::size_t fingers = 32; // keys held down at once, and more
+
+int planned(const Phase& phase, double refreshHz) {
+    if (!phase.counted())
+        return 0;
+    return phase.frames > 0 ? phase.frames : maskRefreshes(phase.seconds, refreshHz);
+}
+
+int longest(const std::vector<Phase>& phases, double refreshHz) {
+    int most = 0;
+    for (const Phase& phase : phases)
+        most = std::max(most, planned(phase, refreshHz));
+    return most;
+}
+
+} // namespace
+
 int optionOf(gl::Key key) {
     if (key == gl::Key::left || key == gl::Key::right)
         return key == gl::Key::left ? 1 : 2;
@@ -14,19 +33,25 @@ int optionOf(gl::Key key) {
 }
 
 TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refreshHz)
-    : phases_(std::move(phases)), images_(images), refreshHz_(refreshHz) {
+    : phases_(std::move(phases)), refreshHz_(refreshHz), forms_(phases_.size()),
+      count_(refreshHz, longest(phases_, refreshHz)) {
     record_.phases.resize(phases_.size());
+    held_.reserve(fingers);
     const auto shows = [](const Phase& phase) { return !phase.images.empty(); };
     const auto first = std::find_if(phases_.begin(), phases_.end(), shows);
     const auto last = std::find_if(phases_.rbegin(), phases_.rend(), shows);
     firstImage_ = first == phases_.end() ? 0 : static_cast<Screen>(first - phases_.begin());
     lastImage_ = static_cast<Screen>(phases_.rend() - last) - 1;
-    for (std::size_t i = 0; i < phases_.size(); ++i)
-        if (phases_[i].counted())
-            record_.phases[i].framesPlanned = phases_[i].frames > 0
-                                                  ? phases_[i].frames
-                                                  : maskRefreshes(phases_[i].seconds, refreshHz);
-    go(0);
+    std::size_t questions = 0;
+    for (std::size_t i = 0; i < phases_.size(); ++i) {
+        PhaseRecord& record = record_.phases[i];
+        record.framesPlanned = planned(phases_[i], refreshHz);
+        record.intervals.reserve(static_cast<std::size_t>(record.framesPlanned));
+        if (!phases_[i].questions.empty())
+            forms_[i].emplace(phases_[i].questions, images);
+        questions += phases_[i].questions.size();
+    }
+    record_.answers.reserve(questions);
 }
 
 TrialMachine::Next TrialMachine::next() const {
@@ -51,6 +76,14 @@ bool TrialMachine::exposing(Screen screen) const {
     return screen >= firstImage_ && screen <= lastImage_;
 }
 
+const Form* TrialMachine::form() const {
+    const auto index = static_cast<std::size_t>(screen_);
+    return screen_ != leaveScreen && index < forms_.size() && forms_[index] ? &*forms_[index]
+                                                                            : nullptr;
+}
+
+Form* TrialMachine::asked() { return const_cast<Form*>(form()); }
+
 int TrialMachine::alternation() const {
     const Phase& current = phase(screen_);
     const int each = maskRefreshes(current.alternate, refreshHz_);
@@ -64,12 +97,12 @@ void TrialMachine::shown(double time) {
     pending_ = false;
     if (!counted(screen_))
         return;
-    count_->add(time);
+    count_.add(time);
     noteCount();
     PhaseRecord& record = recordOf(screen_);
     if (record.framesShown < record.framesPlanned)
         return;
-    if (form_) {
+    if (form()) {
         record.timedOut = true;
         answer(Form::Effect::finished, time);
     } else {
@@ -79,10 +112,10 @@ void TrialMachine::shown(double time) {
 
 void TrialMachine::enter(double time) {
     if (counted(visible_)) {
-        count_->end(time);
+        count_.end(time);
         noteCount();
         std::vector<double>& all = recordOf(*visible_).intervals;
-        all.insert(all.end(), count_->intervals().begin(), count_->intervals().end());
+        all.insert(all.end(), count_.intervals().begin(), count_.intervals().end());
     }
     if (visible_ && *visible_ != leaveScreen)
         recordOf(*visible_).view += time - since_;
@@ -95,7 +128,7 @@ void TrialMachine::enter(double time) {
     framesBefore_ = record.framesShown;
     missedBefore_ = record.missedFrames;
     if (counted(screen_))
-        count_.emplace(refreshHz_, record.framesPlanned);
+        count_.restart();
     if (!record.shown)
         record.onset = time;
     record.shown = true;
@@ -104,14 +137,14 @@ void TrialMachine::enter(double time) {
 // Of the phase on the screen.
 void TrialMachine::noteCount() {
     PhaseRecord& record = recordOf(*visible_);
-    record.framesShown = framesBefore_ + count_->refreshes();
-    record.missedFrames = missedBefore_ + count_->missed();
+    record.framesShown = framesBefore_ + count_.refreshes();
+    record.missedFrames = missedBefore_ + count_.missed();
 }
 
 void TrialMachine::handle(const Event& event) {
     using Kind = Event::Kind;
     if (event.kind == Kind::release) {
-        held_.erase(event.key);
+        std::erase(held_, event.key);
         return;
     }
     if (event.kind == Kind::focusLost) {
@@ -119,8 +152,12 @@ void TrialMachine::handle(const Event& event) {
             interrupt();
         return;
     }
-    const bool fresh = event.kind != Kind::press || held_.insert(event.key).second;
-    if (!fresh || next() == Next::finished || next() == Next::left)
+    if (event.kind == Kind::press) {
+        if (std::find(held_.begin(), held_.end(), event.key) != held_.end())
+            return;
+        held_.push_back(event.key);
+    }
+    if (next() == Next::finished || next() == Next::left)
         return;
     if (const auto phase = droppedIn(event.time)) {
         recordOf(*phase).earlyPresses += event.kind == Kind::press;
@@ -132,10 +169,10 @@ void TrialMachine::handle(const Event& event) {
         press(event.key, event.time);
     else if (screen_ == leaveScreen)
         leave(event.option);
-    else if (form_)
+    else if (Form* page = asked())
         answer(event.kind == Kind::text
-                   ? form_->type(event.symbol, viewed(screen_, event.time))
-                   : form_->click(event.option, event.share, viewed(screen_, event.time)),
+                   ? page->type(event.symbol, viewed(screen_, event.time))
+                   : page->click(event.option, event.share, viewed(screen_, event.time)),
                event.time);
     else if (event.kind == Kind::option && !phase(screen_).text.empty())
         end(event.time);
@@ -158,8 +195,8 @@ void TrialMachine::press(gl::Key key, double time) {
         askToLeave();
     else if (screen_ == leaveScreen)
         leave(optionOf(key));
-    else if (form_)
-        answer(form_->press(key, viewed(screen_, time)), time);
+    else if (Form* page = asked())
+        answer(page->press(key, viewed(screen_, time)), time);
     else if (key == gl::Key::space && phase(screen_).key)
         end(time);
 }
@@ -175,7 +212,7 @@ void TrialMachine::answer(Form::Effect effect, double time) {
     pending_ |= effect == Form::Effect::changed;
     if (effect != Form::Effect::finished)
         return;
-    const std::vector<Answer> given = form_->answers();
+    const std::vector<Answer> given = form()->answers();
     record_.answers.insert(record_.answers.end(), given.begin(), given.end());
     advance(time);
 }
@@ -209,14 +246,8 @@ void TrialMachine::advance(double time) {
 }
 
 void TrialMachine::go(Screen screen) {
-    const bool back = screen_ == leaveScreen, away = screen == leaveScreen;
     screen_ = screen;
     pending_ = true;
-    if (back || away)
-        return;
-    form_.reset();
-    if (screen < static_cast<Screen>(phases_.size()) && !phase(screen).questions.empty())
-        form_.emplace(phase(screen).questions, images_);
 }
 
 double TrialMachine::viewed(Screen screen, double time) const {

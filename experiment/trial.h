@@ -6,7 +6,6 @@
 #include "protocols/reader/trial.h"
 
 #include <optional>
-#include <set>
 #include <vector>
 
 namespace obscura {
@@ -60,6 +59,8 @@ struct TrialRecord {
 // row would lose it for good. Escape elsewhere asks whether to end the session. If that, or a lost
 // focus, broke the exposure of an image, the trial goes on but is marked interrupted: a half-seen
 // pair cannot be unseen.
+//
+// All memory is taken when it is made: until a question is answered, nothing is allocated.
 class TrialMachine {
   public:
     enum class Next {
@@ -76,7 +77,7 @@ class TrialMachine {
     Next next() const;
     Screen screen() const { return screen_; }
     // Of a phase that asks, what its page shows.
-    const Form* form() const { return form_ ? &*form_ : nullptr; }
+    const Form* form() const;
     // Of a phase that shows images in turn, which is the next to be shown, from 0.
     int alternation() const;
     const TrialRecord& record() const { return record_; }
@@ -98,6 +99,7 @@ class TrialMachine {
     bool counted(std::optional<Screen> screen) const;
     bool locked(std::optional<Screen> screen) const;
     bool exposing(Screen screen) const;
+    Form* asked();
     void advance(double time);
     void go(Screen screen);
     void enter(double time);
@@ -112,7 +114,6 @@ class TrialMachine {
     double viewed(Screen screen, double time) const;
 
     std::vector<Phase> phases_;
-    int images_;
     double refreshHz_;
     TrialRecord record_;
 
@@ -125,11 +126,11 @@ class TrialMachine {
     bool left_ = false;
     Screen paused_ = 0; // what the page that asks returns to
     Screen firstImage_, lastImage_;
-    std::optional<Form> form_;
-    std::set<gl::Key> held_;
+    std::vector<std::optional<Form>> forms_; // of the phases that ask
+    std::vector<gl::Key> held_;
 
     // Of the counted phase on the screen, since it came there; and what was counted before a pause.
-    std::optional<RefreshCount> count_;
+    RefreshCount count_;
     int framesBefore_ = 0, missedBefore_ = 0;
 };
 

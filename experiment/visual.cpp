@@ -59,10 +59,10 @@ double VisualObserver::show(const TrialMachine& trial) {
     return time;
 }
 
-std::vector<Event> VisualObserver::events(bool wait) {
+const std::vector<Event>& VisualObserver::events(bool wait) {
     if (!wait)
         attend(); // between two refreshes
-    std::vector<Event> events = presenter_.events(wait);
+    const std::vector<Event>& events = presenter_.events(wait);
     for (const Event& event : events)
         if (event.kind == Event::Kind::release)
             coming_ = std::max(0, coming_ - 1);

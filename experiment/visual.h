@@ -26,7 +26,7 @@ class VisualObserver : public Observer {
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
     double show(const TrialMachine& trial) override;
-    std::vector<Event> events(bool wait) override;
+    const std::vector<Event>& events(bool wait) override;
     bool rest() override;
     void thank() override;
 

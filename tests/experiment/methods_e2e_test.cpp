@@ -11,24 +11,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <regex>
-
 namespace obscura {
 namespace {
 
 namespace fs = std::filesystem;
 using test::Program;
 using test::Row;
-
-// The same study in less time: fixed times and least views are cut short, and nothing is repeated.
-std::string hastened(std::string protocol) {
-    for (const auto& [key, value] : {std::pair("seconds = ", "0.3"), std::pair("mask = ", "0.3"),
-                                     std::pair("atLeast = ", "0"), std::pair("minimumView = ", "0"),
-                                     std::pair("repeats = ", "1"), std::pair("reversals = ", "3")})
-        protocol = std::regex_replace(protocol, std::regex(std::string("\\b") + key + "[0-9.]+"),
-                                      std::string(key) + value);
-    return std::regex_replace(protocol, std::regex("breakEvery = [0-9]+"), "breakEvery = 5");
-}
 
 // One who answers every question by keys, and looks no longer than it takes to press one.
 class Participant {
@@ -111,7 +99,7 @@ class Method : public testing::TestWithParam<fs::path> {
 
 TEST_P(Method, RunsToItsEndByKeys) {
     const fs::path protocol = folder.path() / "study.toml", stimuli = folder.path() / "stimuli";
-    writeFile(protocol, hastened(readFile(GetParam())));
+    writeFile(protocol, test::hastened(readFile(GetParam())));
     test::writeNoiseStimuli(readProtocol(protocol), stimuli);
     const Study study = openStudy(protocol, stimuli);
     test::Desktop desktop(1280, 720);

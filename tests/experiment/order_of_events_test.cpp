@@ -32,9 +32,9 @@ class HastyObserver : public Observer {
         shown_ = trial.screen();
         return clock_ += 1 / 60.0;
     }
-    std::vector<Event> events(bool wait) override {
+    const std::vector<Event>& events(bool wait) override {
         if (shown_ == test::mask)
-            return {};
+            return nothing();
         clock_ += wait ? patience_ : 1e-4;
         return press(shown_ == test::question ? gl::Key::two : gl::Key::space);
     }
@@ -42,14 +42,16 @@ class HastyObserver : public Observer {
     void thank() override {}
 
   protected:
-    std::vector<Event> press(gl::Key key) const {
-        return {{Event::Kind::press, clock_, key}, {Event::Kind::release, clock_, key}};
+    const std::vector<Event>& press(gl::Key key) {
+        return events_ = {{Event::Kind::press, clock_, key}, {Event::Kind::release, clock_, key}};
     }
+    const std::vector<Event>& nothing() { return events_ = {}; }
 
   private:
     double patience_;
     Screen shown_ = 0;
     double clock_ = 0;
+    std::vector<Event> events_;
 };
 
 // A person who types faster than pages are drawn: each key arrives while the page that shows what
@@ -63,9 +65,9 @@ class QuickObserver : public HastyObserver {
         screens.push_back(trial.screen());
         return HastyObserver::show(trial);
     }
-    std::vector<Event> events(bool wait) override {
+    const std::vector<Event>& events(bool wait) override {
         if (!trial_->form() || (!wait && trial_->form()->changes() == 0))
-            return {};
+            return nothing();
         return press(trial_->form()->answered(static_cast<std::size_t>(trial_->form()->focus()))
                          ? gl::Key::enter
                          : gl::Key::two);

@@ -1,72 +1,185 @@
-// Between the first onset and the question nothing may hold up a frame.
-#include "experiment/display.h"
-#include "experiment/timing_count.h"
+// Between the first onset of a trial and its question nothing may hold up a frame: the real session
+// before a real window, as the program runs it.
+#include "base/files.h"
+#include "experiment/presenter.h"
+#include "experiment/session.h"
 #include "tests/experiment/desktop.h"
 #include "tests/experiment/quiet.h"
+#include "tests/experiment/shipped_studies.h"
+#include "tests/experiment/tiny_study.h"
 
 #include <epoxy/gl.h>
 
 #include <X11/keysym.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 
 namespace obscura {
 namespace {
 
-constexpr int width = 640, height = 400, planned = 60;
+namespace fs = std::filesystem;
+using test::Disturbance;
+using Kind = test::Disturbance::Kind;
 
-Image8 picture(int w, int h, std::uint8_t value) {
-    return {w, h, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(w * h) * 3, value)};
-}
+constexpr int width = 1280, height = 720;
 
-class QuietTest : public testing::Test {
-  protected:
-    test::Desktop desktop{width, height};
-    test::Disturbances before;
+struct Enough {};
 
-    void SetUp() override { ::setenv("DISPLAY", desktop.name().c_str(), 1); }
+// A participant who presses what goes on as soon as the program waits for it, and who listens from
+// the first onset of each trial, of an image or grey, to that of its question. What the participant
+// does is not listened to.
+class Listener : public Observer {
+  public:
+    Listener(Presenter& presenter, test::Desktop& desktop, const Protocol& protocol, int trials)
+        : presenter_(presenter), desktop_(desktop), phases_(phasesOf(protocol.trial)),
+          trials_(trials) {}
+
+    int listened = 0; // trials
+
+    Refresh refresh() const override { return presenter_.refresh(); }
+    void describe(nlohmann::ordered_json& sidecar) const override { presenter_.describe(sidecar); }
+    bool instruct() override {
+        desktop_.tap(XK_space);
+        return true;
+    }
+    void prepare(const Upcoming& trial) override {
+        if (listened == trials_)
+            throw Enough{};
+        presenter_.prepare(trial);
+    }
+    double show(const TrialMachine& trial) override {
+        trial_ = &trial;
+        const bool wasOn = trial.isOn();
+        const double time = presenter_.show(trial);
+        if (wasOn)
+            return time;
+        const Phase& phase = phases_.at(static_cast<std::size_t>(trial.screen()));
+        if (!phase.questions.empty()) {
+            listened += listening_;
+            listen(false);
+        } else if (phase.text.empty()) {
+            listen(true);
+        }
+        return time;
+    }
+    const std::vector<Event>& events(bool wait) override {
+        if (wait && !coming_) {
+            const bool was = listening_;
+            listen(false);
+            press();
+            listen(was);
+        }
+        const std::vector<Event>& events = presenter_.events(wait);
+        for (const Event& event : events)
+            coming_ = coming_ && event.kind != Event::Kind::release;
+        return events;
+    }
+    bool rest() override { return true; }
+    void thank() override {}
+
+  private:
+    void listen(bool on) {
+        listening_ = on;
+        test::listen(on);
+    }
+    void press() {
+        coming_ = true;
+        const Form* form = trial_->form();
+        const auto focus = static_cast<std::size_t>(form ? form->focus() : 0);
+        if (!form)
+            desktop_.tap(XK_space);
+        else if (form->answered(focus))
+            desktop_.tap(XK_Return);
+        else
+            desktop_.tap(XK_1 + form->entries()[focus].ranks.size());
+    }
+
+    Presenter& presenter_;
+    test::Desktop& desktop_;
+    std::vector<Phase> phases_;
+    int trials_;
+    const TrialMachine* trial_ = nullptr;
+    bool listening_ = false;
+    bool coming_ = false; // a key was pressed whose release has not come back yet
 };
 
-// What holds up frames is noticed at all.
-TEST_F(QuietTest, DisturbancesAreCounted) {
-    Display display({{"quiet", 1, std::nullopt}}, [](int w, int h) { return picture(w, h, 128); });
-    test::listenToShaders();
-    before = test::disturbances();
-    const auto number = std::make_unique<int>(1);
-    EXPECT_GE((test::disturbances() - before).allocations, 1);
-    std::ifstream("/proc/self/stat");
-    EXPECT_GE((test::disturbances() - before).files, 1);
-    const GLuint shader = glCreateShader(GL_FRAGMENT_SHADER);
-    glCompileShader(shader);
-    EXPECT_EQ((test::disturbances() - before).compilations, 1);
-}
+class QuietTest : public testing::TestWithParam<fs::path> {
+  protected:
+    test::TemporaryFolder folder;
+    test::Desktop desktop{width, height};
 
-TEST_F(QuietTest, ImagesAndMaskAreShownWithoutAny) {
-    Display display({{"quiet", 1, std::nullopt}, 128, true},
-                    [](int w, int h) { return picture(w, h, 128); });
-    test::listenToShaders();
-    const Image8 pixels = picture(320, 180, 40);
-    const gl::Picture image(pixels.width, pixels.height, pixels.channels, pixels.pixels);
-    display.warmUp(image);
-    RefreshCount count(display.refresh().hz, planned);
-    desktop.tap(XK_space);
+    void SetUp() override { ::setenv("DISPLAY", desktop.name().c_str(), 1); }
 
-    before = test::disturbances();
-    display.show(&image, true);
-    std::size_t inputs = display.window().poll().size();
-    while (count.refreshes() < planned) {
-        count.add(display.show(nullptr));
-        inputs += display.window().poll().size();
+    // What is heard in the first trials of a session of a study.
+    std::vector<Disturbance> listenTo(const fs::path& method, int trials) {
+        const fs::path protocol = folder.path() / "study.toml", stimuli = folder.path() / "stimuli";
+        writeFile(protocol, test::hastened(readFile(method)));
+        test::writeNoiseStimuli(readProtocol(protocol), stimuli);
+        const Study study = openStudy(protocol, stimuli);
+        Display display({{"quiet", 1, std::nullopt}, study.protocol.trial.grey, true},
+                        curtain(study));
+        test::listenToOpenGl();
+        Presenter presenter(display, study, "");
+        Listener listener(presenter, desktop, study.protocol, trials);
+        const DataFolder data(folder.path() / "data", study.protocol);
+        try {
+            runSession(study, data, {"P01", 1, false}, listener);
+        } catch (const Enough&) {
+        }
+        EXPECT_EQ(listener.listened, trials);
+        return test::heard();
     }
-    count.end(display.show(&image, true));
-    const test::Disturbances found = test::disturbances() - before;
-    EXPECT_EQ(found.allocations, 0);
-    EXPECT_EQ(found.files, 0);
-    EXPECT_EQ(found.compilations, 0);
-    EXPECT_GT(inputs, 0U) << "of Space";
+};
+
+// What holds up frames is noticed at all, and whose it is.
+TEST_F(QuietTest, DisturbancesAreHeard) {
+    Display display({{"quiet", 1, std::nullopt}}, [](int w, int h) {
+        return Image8{w, h, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(w * h) * 3, 128)};
+    });
+    test::listenToOpenGl();
+    const auto ours = [](const std::vector<Disturbance>& all, Kind kind) {
+        return std::count_if(all.begin(), all.end(), [&](const Disturbance& one) {
+            return one.kind == kind && one.by == "ours";
+        });
+    };
+    test::listen(true);
+    const std::string text(100, 'x');
+    const auto number = std::make_unique<int>(1);
+    const std::vector<Disturbance> memory = test::heard();
+    EXPECT_GE(ours(memory, Kind::allocation), 2) << test::summary(memory) << text << *number;
+
+    test::listen(true);
+    std::ifstream("/proc/self/stat");
+    const std::vector<Disturbance> files = test::heard();
+    EXPECT_GE(ours(files, Kind::file), 1) << test::summary(files);
+
+    test::listen(true);
+    glCompileShader(glCreateShader(GL_FRAGMENT_SHADER));
+    const gl::Picture picture(1, 1, 3, std::array<std::uint8_t, 3>{});
+    const std::vector<Disturbance> drawing = test::heard();
+    EXPECT_EQ(ours(drawing, Kind::compilation), 1) << test::summary(drawing);
+    EXPECT_EQ(ours(drawing, Kind::upload), 2) << test::summary(drawing);
 }
+
+// Of this program there is nothing. Allocations of the driver and of Xlib are theirs, and printed.
+TEST_P(QuietTest, NothingHoldsUpATrial) {
+    const std::vector<Disturbance> all = listenTo(GetParam(), 3);
+    std::printf("heard: %s\n", test::summary(all).c_str());
+    int told = 0;
+    for (const Disturbance& one : all)
+        if (one.kind != Kind::allocation || one.by == "ours") {
+            ADD_FAILURE() << test::summary({one}) << "\n" << one.how;
+            if (++told == 5)
+                break;
+        }
+}
+
+INSTANTIATE_TEST_SUITE_P(Protocols, QuietTest, testing::ValuesIn(test::shippedStudies()),
+                         test::caseName);
 
 } // namespace
 } // namespace obscura

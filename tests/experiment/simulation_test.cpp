@@ -234,14 +234,15 @@ class Quitter : public SimulatedObserver {
         trial_ = trial.index;
         SimulatedObserver::prepare(trial);
     }
-    std::vector<Event> events(bool wait) override {
+    const std::vector<Event>& events(bool wait) override {
         if (!wait || trial_ < 3)
             return SimulatedObserver::events(wait);
-        return {{Event::Kind::press, 1e6, pressed_++ ? gl::Key::two : gl::Key::escape}};
+        return events_ = {{Event::Kind::press, 1e6, pressed_++ ? gl::Key::two : gl::Key::escape}};
     }
 
   private:
     int trial_ = 0, pressed_ = 0;
+    std::vector<Event> events_;
 };
 
 TEST_F(SimulationTest, LeavingKeepsTheRowsAndReturnsTheSlot) {
