@@ -13,7 +13,7 @@ namespace obscura {
 Upcoming upcoming(const Protocol& protocol, const PlannedTrial& planned, int index, int count);
 
 // Runs a trial before an observer: true when it was finished, false when the person left.
-// `exposing` is called just before the first image is shown.
+// `exposing` is called before the first image is shown, or the timed phases that lead to it.
 bool play(TrialMachine& machine, Observer& observer, const std::function<void()>& exposing);
 
 // What an order may depend on: each answer as it was given, but of images the role in place of the

@@ -19,11 +19,11 @@ struct TrialLines {
 };
 
 // Keeps a session's tables and its journal, all safe on disk when a function returns. The journal
-// says session_started, then trial_started for each trial before its first image, trial_finished
-// with the lines of all tables, presses_ignored where Space was pressed too soon, then
-// session_ended with the reason. A trial that was started but not finished was broken off while the
-// participant looked; a journal without session_ended is a crash. The journal is written first:
-// what a crash keeps from the tables, restoreTables() writes.
+// says session_started, then trial_started for each trial before its first image (and what leads to
+// it by the clock), trial_finished with the lines of all tables, presses_ignored where Space was
+// pressed too soon, then session_ended with the reason. A trial that was started but not finished
+// was broken off while the participant looked; a journal without session_ended is a crash. The
+// journal is written first: what a crash keeps from the tables, restoreTables() writes.
 class Recorder {
   public:
     // New files; an Error when this session has any. `slot`: whose order is shown; `pairs`: whether

@@ -42,6 +42,10 @@ TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refresh
     const auto last = std::find_if(phases_.rbegin(), phases_.rend(), shows);
     firstImage_ = first == phases_.end() ? 0 : static_cast<Screen>(first - phases_.begin());
     lastImage_ = static_cast<Screen>(phases_.rend() - last) - 1;
+    for (journalAt_ = firstImage_; journalAt_ > 0; --journalAt_)
+        if (const Phase& before = phase(journalAt_ - 1);
+            !before.counted() || !before.questions.empty())
+            break;
     std::size_t questions = 0;
     for (std::size_t i = 0; i < phases_.size(); ++i) {
         PhaseRecord& record = record_.phases[i];
@@ -59,7 +63,7 @@ TrialMachine::Next TrialMachine::next() const {
         return Next::left;
     if (screen_ == static_cast<Screen>(phases_.size()))
         return Next::finished;
-    if (screen_ == firstImage_ && !journalled_)
+    if (screen_ == journalAt_ && !journalled_)
         return Next::journal;
     return pending_ || counted(screen_) ? Next::present : Next::wait;
 }

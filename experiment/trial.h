@@ -64,7 +64,8 @@ struct TrialRecord {
 class TrialMachine {
   public:
     enum class Next {
-        journal, // write down that the exposure begins, then call journalled()
+        journal, // write down that the exposure begins, then call journalled(): before the first
+                 // image, and before what leads to it by the clock, which writing must not hold up
         present, // show screen(), then call shown()
         wait,    // sleep until there is an event
         finished,
@@ -125,7 +126,7 @@ class TrialMachine {
     bool journalled_ = false;
     bool left_ = false;
     Screen paused_ = 0; // what the page that asks returns to
-    Screen firstImage_, lastImage_;
+    Screen firstImage_, lastImage_, journalAt_;
     std::vector<std::optional<Form>> forms_; // of the phases that ask
     std::vector<gl::Key> held_;
 

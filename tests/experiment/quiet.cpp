@@ -245,6 +245,7 @@ struct Before<pointer, kind, void (*)(Arguments...)> {
 
     static void call(Arguments... arguments) {
         note(kind);
+        *pointer = original;
         original(arguments...);
         take();
     }

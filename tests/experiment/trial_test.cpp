@@ -44,6 +44,23 @@ TEST(Trial, JournalsBeforeImageOneAndOnlyThere) {
     EXPECT_EQ(bench.machine.next(), Next::present) << "image 1 again, journalled already";
 }
 
+// A blank ends by the clock: what is written after it would hold up the image.
+TEST(Trial, JournalsBeforeTheBlankThatLeadsToTheImage) {
+    Phase page{"page"}, blank{"blank"}, image{"image"};
+    page.text = "start";
+    blank.grey = 128, blank.seconds = 0.1, blank.key = false;
+    image.images = {"1"};
+    Bench bench({page, blank, image}, 1);
+    EXPECT_EQ(bench.machine.next(), Next::present) << "the page, which has no end of its own";
+    bench.machine.shown(10);
+    bench.tap(gl::Key::space);
+    EXPECT_EQ(bench.machine.next(), Next::journal);
+    bench.machine.journalled();
+    while (bench.machine.next() == Next::present)
+        bench.step();
+    EXPECT_EQ(bench.machine.screen(), 2) << "without another";
+}
+
 TEST(Trial, RecordsTimes) {
     Bench bench;
     bench.settle();
