@@ -81,7 +81,7 @@ void CsvReader::skipMark() {
 
 // Reads on, keeping what has not yet been given out.
 void CsvReader::fill() {
-    constexpr std::size_t block = std::size_t{1} << 20;
+    constexpr std::size_t block = std::size_t{1} << 16;
     buffer_.erase(0, at_);
     at_ = 0;
     const std::size_t had = buffer_.size(), wanted = std::max(block, had);

@@ -55,6 +55,12 @@ Table& table() {
 
 Symbol::Symbol(std::string_view text) : number_(table().numberOf(text)) {}
 
+Symbol Symbol::numbered(std::uint32_t number) {
+    Symbol symbol;
+    symbol.number_ = number;
+    return symbol;
+}
+
 const std::string& Symbol::text() const { return table()[number_]; }
 
 } // namespace obscura

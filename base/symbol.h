@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/core.h>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -16,6 +18,7 @@ class Symbol {
     const std::string& text() const;
     operator const std::string&() const { return text(); }
     std::uint32_t number() const { return number_; } // from 0 for "", in the order of making
+    static Symbol numbered(std::uint32_t number);    // that has been made
 
     bool operator==(const Symbol&) const = default;
 
@@ -23,6 +26,12 @@ class Symbol {
     std::uint32_t number_ = 0;
 };
 
-inline const std::string& format_as(Symbol symbol) { return symbol.text(); }
-
 } // namespace obscura
+
+template <>
+struct fmt::formatter<obscura::Symbol> : fmt::formatter<std::string_view> {
+    template <typename Context>
+    auto format(obscura::Symbol symbol, Context& context) const {
+        return fmt::formatter<std::string_view>::format(symbol.text(), context);
+    }
+};
