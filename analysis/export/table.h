@@ -1,0 +1,28 @@
+#pragma once
+
+#include "analysis/export/study_data.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// A table of text, as it goes into files of any format.
+struct ExportTable {
+    std::vector<TableColumn> columns;
+    std::vector<std::vector<std::string>> rows;
+};
+
+// `version`: of the list of columns (responses.h).
+ExportTable tableOf(std::span<const Placed<Response>> rows, int version);
+ExportTable tableOf(std::span<const Placed<PhaseRow>> rows);
+ExportTable tableOf(std::span<const Placed<AnswerRow>> rows);
+
+std::string csvText(const ExportTable& table);
+
+// As BIDS wants it: cells between tabs, n/a for what is missing. A tab, line feed or carriage
+// return in a cell becomes a blank, for BIDS has no way to write it.
+std::string tsvText(const ExportTable& table);
+
+} // namespace obscura
