@@ -78,11 +78,13 @@ class Events {
             {"onset", "Onset on the session's clock, which starts with the program's window",
              "seconds"},
             {"duration", "How long the phase was on view; 0 for an answer", "seconds"},
-            {"trial_type", "phase, or answer", "text"},
+            {"trial_type", "phase; image, for each of several that a phase has on view; or answer",
+             "text"},
             {"response_time", "From the onset of the question's page to the answer", "seconds"}};
         if (withStimuli)
             table_.columns.push_back(
-                {"stim_file", "The image on view, in stimuli/; n/a for none and for several",
+                {"stim_file",
+                 "The image on view, in stimuli/; n/a for a phase that has none or several",
                  "text"});
         for (const ExportTable& table : {phases_, answers_})
             for (const TableColumn& column : table.columns)
@@ -108,11 +110,18 @@ class Events {
         const Cells cells(phases_);
         for (std::size_t i = 0; i < phases_.rows.size(); ++i) {
             const PhaseRow& row = session_.phases[i].row;
-            std::vector<std::string> begin = {seconds(row.onsetMs), seconds(row.viewMs), "phase",
-                                              ""};
-            if (withStimuli_)
-                begin.push_back(row.files.find('+') == std::string::npos ? row.files : "");
-            add(row.onsetMs, std::move(begin), cells, phases_.rows[i]);
+            const std::vector<std::string> files = split(row.files, '+');
+            const auto event = [&](const char* type, const std::string& file, const Cells& of) {
+                std::vector<std::string> begin = {seconds(row.onsetMs), seconds(row.viewMs), type,
+                                                  ""};
+                if (withStimuli_)
+                    begin.push_back(file);
+                add(row.onsetMs, std::move(begin), of, phases_.rows[i]);
+            };
+            event("phase", files.size() == 1 ? files.front() : "", cells);
+            if (withStimuli_ && files.size() > 1)
+                for (const std::string& file : files)
+                    event("image", file, cells);
         }
     }
 
@@ -152,7 +161,8 @@ class Stimuli {
 
     void add(const SessionData& session) {
         for (const auto& [row, place] : session.phases) {
-            const std::vector<std::string> files = parts(row.files), hashes = parts(row.sha256);
+            const std::vector<std::string> files = split(row.files, '+'),
+                                           hashes = split(row.sha256, '+');
             if (files.size() != hashes.size())
                 throw Error({place.file, place.line, 0, "sha256"},
                             fmt::format("expected {} hash(es), of {}, found {}", files.size(),
@@ -165,20 +175,10 @@ class Stimuli {
     const std::map<std::string, std::string>& content() const { return content_; }
 
   private:
-    static std::vector<std::string> parts(const std::string& joined) {
-        std::vector<std::string> result;
-        for (std::size_t begin = 0; begin < joined.size();) {
-            const std::size_t end = std::min(joined.find('+', begin), joined.size());
-            result.push_back(joined.substr(begin, end - begin));
-            begin = end + 1;
-        }
-        return result;
-    }
-
     void add(const std::string& file, const std::string& hash, Place place) {
         place.key = "files";
         const fs::path path = fs::path(file).lexically_normal();
-        if (path.is_absolute() || path.empty() || *path.begin() == "..")
+        if (path.is_absolute() || path != file || *path.begin() == "..")
             throw Error(place,
                         fmt::format("expected a file of the stimuli's folder, found \"{}\"", file));
         if (const auto [known, isNew] = content_.try_emplace(file); isNew)
@@ -271,7 +271,8 @@ class Bids {
                            session.participant, session.session, data_.label, suffix)] =
             tsvText(table);
         ordered_json json = sidecar(table);
-        json["TaskName"] = data_.study;
+        if (suffix == "beh") // of events it would be a column's description
+            json["TaskName"] = data_.study;
         files_[fmt::format("task-{}_{}.json", data_.label, suffix)] = json.dump(2) + "\n";
     }
 
@@ -299,13 +300,14 @@ class Bids {
                 sessions.rows.push_back({"ses-" + session->session, session->started,
                                          fmt::format("{}", session->trials()), session->endReason});
             }
-            files_[fmt::format("sub-{0}/sub-{0}_sessions.tsv", participant)] = tsvText(sessions);
+            const std::string path = fmt::format("sub-{0}/sub-{0}_sessions", participant);
+            files_[path + ".tsv"] = tsvText(sessions);
+            files_[path + ".json"] = sidecar(sessions).dump(2) + "\n"; // BIDS has none at the root
             people.rows.push_back({"sub-" + participant, fmt::format("{}", list.size()),
                                    fmt::format("{}", trials), list.front()->simulated ? "1" : "0"});
         }
         files_["participants.tsv"] = tsvText(people);
         files_["participants.json"] = sidecar(people).dump(2) + "\n";
-        files_["sessions.json"] = sidecar(sessions).dump(2) + "\n";
     }
 
     const StudyData& data_;

@@ -16,16 +16,6 @@ struct Comparison {
     std::optional<bool> firstChosen; // none: unsure
 };
 
-std::vector<std::string> parts(const std::string& joined) {
-    std::vector<std::string> result;
-    for (std::size_t begin = 0; begin <= joined.size();) {
-        const std::size_t end = std::min(joined.find('>', begin), joined.size());
-        result.push_back(joined.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return result;
-}
-
 // Questions that are answered with an image; others have options of their own.
 std::set<std::string> questionsOfImages(const StudyData& data) {
     std::set<std::string> names;
@@ -62,8 +52,8 @@ class Comparisons {
         if (trial.trialKind != "main" || row.kind == "rank")
             others_ += trial.trialKind == "main";
         else if (row.kind == "choice" && questions_.count(row.question)) {
-            const std::vector<std::string> roles = parts(trial.roles),
-                                           techniques = parts(trial.techniques);
+            const std::vector<std::string> roles = split(trial.roles, '>'),
+                                           techniques = split(trial.techniques, '>');
             if (roles.size() != techniques.size())
                 throw Error({place.file, place.line, 0, "techniques"},
                             fmt::format("expected a technique for each of the roles {}, found {}",

@@ -34,6 +34,16 @@ std::string tsvCell(std::string cell) {
 
 } // namespace
 
+std::vector<std::string> split(const std::string& joined, char separator) {
+    std::vector<std::string> result;
+    for (std::size_t begin = 0; begin < joined.size();) {
+        const std::size_t end = std::min(joined.find(separator, begin), joined.size());
+        result.push_back(joined.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return result;
+}
+
 ExportTable tableOf(std::span<const Placed<Response>> rows, int version) {
     ExportTable table;
     const std::vector<Column> columns = responseColumns(version);

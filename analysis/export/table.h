@@ -14,6 +14,9 @@ struct ExportTable {
     std::vector<std::vector<std::string>> rows;
 };
 
+// What stands between the separators of one cell; nothing for an empty one.
+std::vector<std::string> split(const std::string& joined, char separator);
+
 // `version`: of the list of columns (responses.h).
 ExportTable tableOf(std::span<const Placed<Response>> rows, int version);
 ExportTable tableOf(std::span<const Placed<PhaseRow>> rows);
@@ -21,8 +24,8 @@ ExportTable tableOf(std::span<const Placed<AnswerRow>> rows);
 
 std::string csvText(const ExportTable& table);
 
-// As BIDS wants it: cells between tabs, n/a for what is missing. A tab, line feed or carriage
-// return in a cell becomes a blank, for BIDS has no way to write it.
+// As BIDS wants it: cells between tabs, n/a for what is missing. A tab or line end within a cell
+// becomes a blank, for BIDS has no way to write it.
 std::string tsvText(const ExportTable& table);
 
 } // namespace obscura
