@@ -88,7 +88,7 @@ class Reader {
             data_.remarks.push_back(fmt::format("skipped: {}{}", bad.place.prefix(), bad.message));
         if constexpr (std::is_same_v<Row, Response>)
             data_.version = std::max(data_.version, table.version);
-        empty_ += table.rows.empty();
+        empty_ += table.rows.empty() && table.bad.empty();
         for (std::size_t i = 0; i < table.rows.size(); ++i)
             add(std::move(table.rows[i]), {file.string(), table.lines[i], 0, {}}, list);
     }
