@@ -3,18 +3,23 @@
 #include "base/files.h"
 #include "base/progress.h"
 #include "base/version.h"
+#include "experiment/broken_session.h"
+#include "experiment/check.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
+#include "experiment/ledger_command.h"
 #include "experiment/presenter.h"
+#include "experiment/preview.h"
 #include "experiment/recorder.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
-#include "experiment/timing_report.h"
+#include "experiment/simulated.h"
+#include "experiment/timing_command.h"
+#include "experiment/visual.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -37,16 +42,15 @@ struct Arguments {
     int monitor = 1;
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
-    bool simulate = false;
+    bool simulate = false, visual = false, resume = false;
     int simulated = 0; // how many; 0 as the protocol plans
     std::optional<std::uint64_t> seed;
-    int returned = 0; // slot, with ledger --void
-    bool yes = false, restore = false;
+    fs::path preview;
+    bool check = false;
+    std::string size = "1920x1080"; // of a screen that nobody looks at
+    LedgerCommand ledger;
     bool photodiode = false;
-    int masks = 1000; // with timing
-    double seconds = 2;
-    bool json = false;
-    fs::path out;
+    TimingArguments timing;
 };
 
 CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
@@ -66,17 +70,17 @@ CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
 void declareTiming(CLI::App& app, Arguments& arguments) {
     CLI::App* timing = app.add_subcommand(
         "timing", "Hold grey masks between images as a trial does, and say how long they were");
-    timing->add_option("--masks", arguments.masks, "How many")
+    timing->add_option("--masks", arguments.timing.masks, "How many")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    timing->add_option("--seconds", arguments.seconds, "How long each")
+    timing->add_option("--seconds", arguments.timing.seconds, "How long each")
         ->type_name("S")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
-    timing->add_flag("--json", arguments.json, "Print JSON instead of a table");
+    timing->add_flag("--json", arguments.timing.json, "Print JSON instead of a table");
     timing
-        ->add_option("--out", arguments.out,
+        ->add_option("--out", arguments.timing.out,
                      "Also write timing.json, and masks.csv with a line for each mask")
         ->type_name("DIR");
     declareScreen(*timing, arguments);
@@ -97,12 +101,17 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->type_name("N")
         ->check(CLI::Range(1, 99))
         ->capture_default_str();
+    CLI::Option* resume =
+        app.add_flag("--resume", arguments.resume,
+                     "Go on with the participant's session, which broke off: no trial is shown "
+                     "twice. Without --participant, the screen asks");
     CLI::Option* windowed = declareScreen(app, arguments);
     app.add_flag("--list-monitors", arguments.listMonitors, "Name the monitors, and end");
     CLI::Option* rehearse =
         app.add_flag("--rehearse", arguments.rehearse,
                      "Try the study out: takes no slot, and its rows go to rehearsals/ in the data "
-                     "folder, marked as such; --windowed always does");
+                     "folder, marked as such; --windowed always does")
+            ->excludes(resume);
     app.add_flag("--allow-untimed", arguments.allowUntimed,
                  "Go on, and without a warning on the screen, on a display whose times cannot be "
                  "relied on; every row says timestamp_source none");
@@ -114,29 +123,31 @@ void declare(CLI::App& app, Arguments& arguments) {
             ->expected(0, 1)
             ->check(CLI::Range(1, 100000))
             ->excludes(windowed)
+            ->excludes(resume)
             ->excludes(rehearse);
     app.add_option("--seed", arguments.seed,
                    "Seed of the simulated participants; the protocol's when not given")
         ->type_name("S")
         ->needs(simulate);
-
-    CLI::App* ledger = app.add_subcommand(
-        "ledger", "List who has which slot of the ordering scheme, or give a slot back");
-    ledger->add_option("--protocol", arguments.protocol, "The study: a TOML file")
-        ->type_name("FILE")
-        ->required();
-    ledger->add_option("--data", arguments.data, "The data folder")
-        ->type_name("DIR")
+    app.add_flag("--visual", arguments.visual,
+                 "Run them through the real window, full screen, by keys that they press")
+        ->needs(simulate);
+    CLI::Option* preview =
+        app.add_option("--preview", arguments.preview,
+                       "Draw every screen of a trial, and the pages around it, on one sheet (PNG), "
+                       "without a window")
+            ->type_name("FILE")
+            ->excludes(windowed, rehearse, simulate);
+    app.add_flag("--check", arguments.check,
+                 "Prove that the study can be run to its end: all fits on the screen, and "
+                 "simulated participants finish every slot. Needs no stimuli; given --stimuli, "
+                 "their files are checked too")
+        ->excludes(windowed, rehearse, simulate, preview);
+    app.add_option("--size", arguments.size, "Of the screen, with --preview and --check")
+        ->type_name("WxH")
         ->capture_default_str();
-    ledger
-        ->add_option("--void", arguments.returned,
-                     "Give slot N back, so that the next participant gets it; asks when the slot "
-                     "was completed, or is held by another machine")
-        ->type_name("N")
-        ->check(CLI::Range(1, highestSlot));
-    ledger->add_flag("--yes", arguments.yes, "Answer yes to what --void asks");
-    ledger->add_flag("--restore", arguments.restore,
-                     "Add the sessions beside a lost or shortened ledger that it does not know");
+
+    declareLedger(app, arguments.ledger);
     declareTiming(app, arguments);
     app.footer(
         "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
@@ -152,48 +163,30 @@ int listMonitors() {
     return 0;
 }
 
-void print(const SlotRecord& record) {
-    fmt::print("{:4}  {:9}  {:12}  session {}  {}{}\n", record.slot, nameOf(record.state),
-               record.session.participant, record.session.number, record.time,
-               isOrphan(record) ? "  its process has died; --void gives the slot back" : "");
-}
-
-bool confirm(const std::string& doubt) {
-    if (!::isatty(STDIN_FILENO))
-        throw Error(doubt + ". Give it back with --yes if you are sure");
-    fmt::print(stderr, "{}. Give it back? [y/N] ", doubt);
-    std::string answer;
-    std::getline(std::cin, answer);
-    return answer == "y" || answer == "Y" || answer == "yes";
-}
-
-// False when the person thinks better of it.
-bool giveBack(Ledger& ledger, const Arguments& arguments) {
-    for (const SlotRecord& record : ledger.records())
-        if (record.slot == arguments.returned && !arguments.yes)
-            if (const std::string doubt = doubtOf(record); !doubt.empty() && !confirm(doubt))
-                return false;
-    ledger.giveBack(arguments.returned);
-    return true;
-}
-
-int editLedger(const Arguments& arguments) {
-    const DataFolder folder(arguments.data, readProtocol(arguments.protocol));
-    Ledger ledger(folder.ledger());
-    if (arguments.restore)
-        ledger.restore(lostFromLedger(folder));
-    const bool done = arguments.returned == 0 || giveBack(ledger, arguments);
-    for (const SlotRecord& record : ledger.records())
-        print(record);
-    for (const SlotRecord& record : lostFromLedger(folder))
-        fmt::print(stderr, "obscura-experiment: slot {} of {} is missing; --restore adds it\n",
-                   record.slot, record.session.participant);
-    return done ? 0 : 1;
-}
-
 void checkFolder(const DataFolder& folder, const Study& study) {
     if (const std::string unknown = checkContinues(folder, study); !unknown.empty())
         fmt::print(stderr, "obscura-experiment: {}\n", unknown);
+}
+
+gl::WindowOptions::Size sizeOf(const std::string& option, const std::string& text) {
+    const auto size = parsePair(text, 'x');
+    if (!size || std::max(size->first, size->second) > 16384)
+        throw Error(
+            fmt::format("{}: expected a size such as 1280x800, found \"{}\"", option, text));
+    return {size->first, size->second};
+}
+
+gl::WindowOptions windowOptions(const Arguments& arguments) {
+    gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt, throwIfEnded};
+    if (arguments.windowed)
+        options.windowed = arguments.windowSize.empty()
+                               ? gl::WindowOptions::Size{1280, 800}
+                               : sizeOf("--windowed", arguments.windowSize);
+    return options;
+}
+
+DisplayOptions displayOptions(const Arguments& arguments, const Study& study) {
+    return {windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode};
 }
 
 int simulate(const Arguments& arguments, const Study& study) {
@@ -202,33 +195,28 @@ int simulate(const Arguments& arguments, const Study& study) {
     const DataFolder folder(arguments.data, protocol);
     checkFolder(folder, study);
     const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
+    std::optional<Display> display;
+    std::optional<Presenter> presenter;
+    if (arguments.visual) {
+        display.emplace(displayOptions(arguments, study), curtain(study));
+        presenter.emplace(*display, study, "Simulated participant: answers do not count");
+    }
     Progress progress("simulated participants", count);
     for (int i = 1; i <= count; ++i) {
         const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
         if (const std::string problem = objection(folder, session); !problem.empty())
             throw Error(problem + "; or another data folder: --data DIR");
-        SimulatedObserver observer(protocol, arguments.seed.value_or(protocol.seed),
-                                   session.participant);
-        runSession(study, folder, session, observer);
+        const std::uint64_t seed = arguments.seed.value_or(protocol.seed);
+        if (presenter) {
+            VisualObserver observer(*presenter, protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        } else {
+            SimulatedObserver observer(protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        }
         progress.update(i, session.participant);
     }
     return 0;
-}
-
-gl::WindowOptions::Size sizeOf(const std::string& text) {
-    const auto size = parsePair(text, 'x');
-    if (!size || std::max(size->first, size->second) > 16384)
-        throw Error(
-            fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"", text));
-    return {size->first, size->second};
-}
-
-gl::WindowOptions windowOptions(const Arguments& arguments) {
-    gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt, throwIfEnded};
-    if (arguments.windowed)
-        options.windowed = arguments.windowSize.empty() ? gl::WindowOptions::Size{1280, 800}
-                                                        : sizeOf(arguments.windowSize);
-    return options;
 }
 
 // What stands above every page of text, and on stderr: the session is no measurement. An Error on
@@ -254,20 +242,55 @@ std::string warning(const Arguments& arguments, const Display& display) {
     return arguments.rehearse ? "Rehearsal: answers do not count" : "";
 }
 
-// Of sessions whose process has died: what their journals have is written into their tables, and
-// the experimenter is told.
+// Of sessions whose process has died: what their journals have is written into their tables, one
+// that had come to its end keeps its slot, and the experimenter is told of the others.
 void mendOrphans(const DataFolder& folder) {
-    for (const SlotRecord& record : Ledger(folder.ledger()).records()) {
+    Ledger ledger(folder.ledger());
+    for (const SlotRecord& record : ledger.records()) {
         if (!isOrphan(record))
             continue;
-        if (fs::exists(folder.journal(record.session)))
+        if (fs::exists(folder.journal(record.session))) {
             restoreTables(folder, record.session);
+            if (endOf(folder.journal(record.session)) == "completed") {
+                Claim(ledger, record.slot, record.session, record.design).complete();
+                continue;
+            }
+        }
         fmt::print(
             stderr,
-            "obscura-experiment: the session of {} broke off; what was answered is kept. Its "
-            "slot {} stays reserved until obscura-experiment ledger --void {}\n",
-            record.session.participant, record.slot, record.slot);
+            "obscura-experiment: session {1} of {0} broke off; what was answered is kept. Go "
+            "on with it by --participant {0} --session {1} --resume, or give its slot back: "
+            "obscura-experiment ledger --void {2}\n",
+            record.session.participant, record.session.number, record.slot);
     }
+}
+
+// What a participant who gives this id would do.
+IdVerdict judge(const Study& study, const DataFolder& folder, const SessionId& session) {
+    if (objection(folder, session).empty())
+        return {true};
+    try {
+        if (!session.rehearsal && isParticipantId(session.participant))
+            return {true, brokenSession(study, folder, session).trials};
+    } catch (const Error& error) {
+        fmt::print(stderr, "obscura-experiment: {}\n", error.what());
+    }
+    return {};
+}
+
+// An Error when a session cannot be run, or not be gone on with, under the id that was given.
+void checkParticipant(const Arguments& arguments, const Study& study, const DataFolder& folder,
+                      const SessionId& session) {
+    if (arguments.resume) {
+        brokenSession(study, folder, session);
+        return;
+    }
+    std::string problem = objection(folder, session);
+    if (problem.empty())
+        return;
+    if (judge(study, folder, session).broken)
+        problem = fmt::format("session {} broke off; --resume goes on with it", session.number);
+    throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
 }
 
 int present(const Arguments& arguments, const Study& study) {
@@ -278,12 +301,6 @@ int present(const Arguments& arguments, const Study& study) {
             ++session.number; // people rehearse more than once
         return session;
     };
-    const auto problemWith = [&](const std::string& id) {
-        return objection(folder, sessionOf(id));
-    };
-    if (!arguments.participant.empty())
-        if (const std::string problem = problemWith(arguments.participant); !problem.empty())
-            throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
     if (arguments.rehearse) {
         fmt::print(stderr,
                    "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
@@ -291,17 +308,23 @@ int present(const Arguments& arguments, const Study& study) {
         checkFolder(folder, study);
         mendOrphans(folder);
     }
+    if (!arguments.participant.empty())
+        checkParticipant(arguments, study, folder, sessionOf(arguments.participant));
 
-    Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
-                    curtain(study));
+    Display display(displayOptions(arguments, study), curtain(study));
     Presenter presenter(display, study, warning(arguments, display));
     const std::optional<std::string> id = arguments.participant.empty()
-                                              ? presenter.askId(problemWith)
+                                              ? presenter.askId([&](const std::string& typed) {
+                                                    return judge(study, folder, sessionOf(typed));
+                                                })
                                               : std::optional(arguments.participant);
     if (!id)
         return 0;
     const SessionId session = sessionOf(*id);
-    const bool completed = runSession(study, folder, session, presenter);
+    const bool completed =
+        objection(folder, session).empty()
+            ? runSession(study, folder, session, presenter)
+            : resumeSession(study, folder, brokenSession(study, folder, session), presenter);
     fmt::print("{}: {}\n", folder.rows(session).string(),
                completed            ? "complete"
                : arguments.rehearse ? "ended before the last trial"
@@ -309,36 +332,26 @@ int present(const Arguments& arguments, const Study& study) {
     return 0;
 }
 
-Image8 greyScreen(int width, int height) {
-    const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
-    return {width, height, 3, std::vector<std::uint8_t>(size, 128)};
+int check(const Arguments& arguments) {
+    const auto [width, height] = sizeOf("--size", arguments.size);
+    std::string found = checkRuns(readProtocol(arguments.protocol), width, height);
+    if (!arguments.stimuli.empty()) {
+        const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        verifyStimuli(study.manifest);
+        found += fmt::format("; {} images are as made", imageCount(study.protocol));
+    }
+    fmt::print("{}\n", found);
+    return 0;
 }
 
-void report(const Arguments& arguments, const TimingRun& timing, const Display& display) {
-    nlohmann::ordered_json json = spell(timing);
-    display.describe(json);
-    fmt::print("{}", arguments.json ? json.dump(2) + "\n" : inWords(timing));
-    if (arguments.out.empty())
-        return;
-    writeFile(arguments.out / "timing.json", json.dump(2) + "\n");
-    writeFile(arguments.out / "masks.csv", csv(timing));
+int preview(const Arguments& arguments, const Study& study) {
+    const auto [width, height] = sizeOf("--size", arguments.size);
+    writePng(arguments.preview, previewSheet(study, width, height));
+    return 0;
 }
 
 int timing(const Arguments& arguments) {
-    Display display({windowOptions(arguments), 128, arguments.photodiode}, greyScreen);
-    fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
-    TimingRun timing;
-    timing.seconds = arguments.seconds;
-    int status = 0;
-    try {
-        Progress progress("masks", arguments.masks);
-        holdMasks(display, arguments.masks, timing, [&](int done) { progress.update(done); });
-    } catch (const EndedBySignal& ended) {
-        timing.ended = "ended by " + ended.name();
-        status = ended.exitStatus();
-    }
-    report(arguments, timing, display);
-    return status;
+    return holdAndReport({windowOptions(arguments), 128, arguments.photodiode}, arguments.timing);
 }
 
 int run(int argc, char** argv) {
@@ -356,15 +369,19 @@ int run(int argc, char** argv) {
     if (arguments.listMonitors)
         return listMonitors();
     if (app.got_subcommand("ledger"))
-        return editLedger(arguments);
+        return editLedger(arguments.ledger);
     heedSignals();
     const bool times = app.got_subcommand("timing");
-    if (!times && (arguments.protocol.empty() || arguments.stimuli.empty()))
+    if (!times && (arguments.protocol.empty() || (arguments.stimuli.empty() && !arguments.check)))
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
         if (times)
             return timing(arguments);
+        if (arguments.check)
+            return check(arguments);
         const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        if (!arguments.preview.empty())
+            return preview(arguments, study);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
     } catch (const EndedBySignal& ended) {
         fmt::print(stderr, "obscura-experiment: ended by {}; answers so far are kept\n",

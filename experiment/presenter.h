@@ -2,7 +2,7 @@
 
 #include "experiment/display.h"
 #include "experiment/observer.h"
-#include "experiment/text.h"
+#include "experiment/screens.h"
 
 #include <functional>
 #include <map>
@@ -13,6 +13,12 @@
 #include <vector>
 
 namespace obscura {
+
+// Whether a session can be run under an id that was typed.
+struct IdVerdict {
+    bool accepted = false;
+    std::optional<int> broken = {}; // it goes on with one that broke off after so many trials
+};
 
 // What a display is to show while the study is being loaded. An Error when one of the study's texts
 // cannot be shown.
@@ -31,9 +37,15 @@ class Presenter : public Observer {
     // is.
     Presenter(Display& display, const Study& study, std::string warning);
 
-    // Asks for the participant's id until `objection` has none; nothing when Escape was pressed.
-    std::optional<std::string>
-    askId(const std::function<std::string(const std::string&)>& objection);
+    // Asks for the participant's id until `judge` has no objection, and, of a session that broke
+    // off, until the experimenter confirms that it goes on; nothing when Escape was pressed.
+    std::optional<std::string> askId(const std::function<IdVerdict(const std::string&)>& judge);
+
+    // For one who is not a person: called before the presenter sleeps, with all on the screen, and
+    // again after the seconds that it returns, should nothing arrive before.
+    void whileWaiting(std::function<double()> attend) { attend_ = std::move(attend); }
+    double now() const { return display_.window().now(); }
+    bool hasKeyboard() const { return display_.window().focused(); }
 
     Refresh refresh() const override { return display_.refresh(); }
     void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
@@ -45,36 +57,28 @@ class Presenter : public Observer {
     void thank() override;
 
   private:
-    // A page in graphics memory, and where its options are.
+    // A page in graphics memory.
     struct Sheet {
-        Page page;
+        Screenful screen;
         std::string title; // of the window
         gl::Picture picture;
-        std::vector<Box> options;
-        std::vector<Box> places;         // of images on it,
-        std::vector<std::string> images; // and which: by place or role
     };
 
     // What a phase shows, so that showing it is nothing but drawing.
     struct Prepared {
         std::optional<Sheet> sheet; // of a page of text, and of questions not yet answered
         std::vector<Placed> images;
+        int grey = 0;      // behind them
         std::string title; // of the window; "" leaves it as it is
     };
 
     Sheet sheet(Page page, std::string title) const; // with the warning above it
-    Sheet drawn(Page page, std::string title) const;
-    void checkFits() const;
+    Sheet uploaded(Screenful screen, std::string title) const;
     void loadImages();
     double showSheet(const Sheet& sheet);
     double showImages(std::span<const Placed> images, int grey);
-    std::vector<Placed> placedOn(const Sheet& sheet) const;
     const gl::Picture& picture(const std::string& image) const;
-    std::vector<Box> gridOn(const Phase& phase) const;
-    std::vector<Placed> placed(const Phase& phase) const;
-    Sheet formSheet(const Form& form, const Phase& phase) const;
-    Page::Pictures room(const Phase& phase) const;
-    int places() const { return static_cast<int>(study_.protocol.trial.order.size()); }
+    std::vector<Placed> placed(const Screenful& screen) const;
     void announce();
     std::vector<gl::Input> inputs();
     Event clicked(const gl::Input& input) const;
@@ -82,11 +86,13 @@ class Presenter : public Observer {
     void turnTo(const Sheet& page);
     bool read(const Sheet& page);
     bool leaves();
+    int choose(const Sheet& page);
+    bool goesOn(int trials);
 
     Display& display_;
     const Study& study_;
     const Texts& texts_;
-    std::string warning_;
+    Screens screens_;
     std::vector<Phase> phases_;
     std::vector<std::map<std::string, gl::Picture>> pictures_; // by condition and role
     Sheet leave_;
@@ -103,6 +109,7 @@ class Presenter : public Observer {
     Sheet unfocused_;       // this in its place
     std::string title_;     // what is on the screen, and
     std::string announced_; // what the window's title says
+    std::function<double()> attend_;
 };
 
 } // namespace obscura

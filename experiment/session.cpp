@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "experiment/continuity.h"
+#include "experiment/play.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
 #include "experiment/selection.h"
@@ -19,65 +20,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// True when answered, false when the person left. A picture is shown, then all that arrived while
-// it was on its way is handled, and only then does the machine learn that it came on: so a key
-// pressed before it cannot be taken for an answer to it. A picture that only replaces one of the
-// same screen has been on: what arrives meanwhile is an answer to it, and may lead to the next.
-bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int trial,
-          const std::string& condition) {
-    for (;;) {
-        throwIfEnded();
-        switch (machine.next()) {
-        case TrialMachine::Next::journal:
-            recorder.trialStarted(trial, condition);
-            machine.journalled();
-            break;
-        case TrialMachine::Next::present: {
-            const bool anew = machine.isOn();
-            const double time = observer.show(machine);
-            if (anew)
-                machine.shown(time);
-            for (const Event& event : observer.events(false))
-                machine.handle(event);
-            if (!anew)
-                machine.shown(time);
-            break;
-        }
-        case TrialMachine::Next::wait:
-            for (const Event& event : observer.events(true))
-                machine.handle(event);
-            break;
-        case TrialMachine::Next::finished:
-            return true;
-        case TrialMachine::Next::left:
-            return false;
-        }
-    }
-}
-
-// The roles at the places 1, 2 and so on.
-std::vector<std::string> placed(const std::vector<std::string>& roles,
-                                const std::vector<int>& order) {
-    std::vector<std::string> result(order.size());
-    std::transform(order.begin(), order.end(), result.begin(),
-                   [&](int role) { return roles[static_cast<std::size_t>(role)]; });
-    return result;
-}
-
-// What an order may depend on: each answer as it was given, but of images the role in place of the
-// number.
-PastTrial remember(const std::vector<Phase>& phases, const Upcoming& trial,
-                   const TrialRecord& record) {
-    PastTrial past{trial.planned, {}, record.interrupted};
-    for (const Answer& answer : record.answers)
-        past.answers[answer.name] = answer.value;
-    for (const Phase& phase : phases)
-        for (const Question& question : phase.questions)
-            if (question.images)
-                past.answers[question.name] = trial.role(past.answers[question.name]);
-    return past;
-}
-
 int hastyPressesOf(const TrialRecord& record) {
     int sum = 0;
     for (const PhaseRecord& phase : record.phases)
@@ -85,27 +27,29 @@ int hastyPressesOf(const TrialRecord& record) {
     return sum;
 }
 
-// All trials, or those until the person left: true when all were answered. Adds to the intervals of
-// counted phases.
-bool playAll(const Context& context, Observer& observer, Recorder& recorder,
-             std::vector<double>& intervals) {
+// All trials that are left, or those until the person left: true when all were answered. Adds to
+// the intervals of counted phases.
+bool playAll(const Context& context, const BrokenSession& before, Observer& observer,
+             Recorder& recorder, std::vector<double>& intervals) {
     const Protocol& protocol = context.study.protocol;
     const std::vector<Phase> phases = phasesOf(protocol.trial);
     const int count = longest(protocol);
-    std::vector<PastTrial> history;
-    for (int index = 1; const auto planned = next(protocol, context.assignment.slot, history);) {
+    std::vector<PastTrial> history = before.history;
+    for (int index = before.trials + 1;
+         const auto planned = next(protocol, context.assignment.slot, history);) {
         if (planned->kind == PlannedTrial::Kind::rest) {
             if (!observer.rest())
                 return false;
             history.push_back({*planned, {}, false});
             continue;
         }
-        const Upcoming trial{index++, count, *planned,
-                             placed(protocol.trial.order, planned->roles)};
+        const Upcoming trial = upcoming(protocol, *planned, index++, count);
         TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz);
         observer.prepare(trial);
-        if (!play(machine, observer, recorder, trial.index,
-                  context.study.condition(trial.planned.condition).condition))
+        if (!play(machine, observer, [&] {
+                recorder.trialStarted(trial.index,
+                                      context.study.condition(trial.planned.condition).condition);
+            }))
             return false;
         recorder.finished(trial.index, linesOf(context, trial, machine.record()));
         history.push_back(remember(phases, trial, machine.record()));
@@ -117,25 +61,37 @@ bool playAll(const Context& context, Observer& observer, Recorder& recorder,
     return true;
 }
 
-} // namespace
+// Of what stopped the session, which may be that nothing can be written any more.
+void noteStop(Recorder& recorder, const std::string& why) {
+    try {
+        recorder.end("stopped: " + why);
+    } catch (const std::exception&) {
+    }
+}
 
-bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
-                Observer& observer) {
-    throwIfEnded();
-    folder.prepare();
+// What goes on after what was before; nothing was, for a new session.
+bool run(const Study& study, const DataFolder& folder, const BrokenSession& before, bool resumed,
+         Observer& observer) {
+    const SessionId& session = before.session;
     Ledger ledger(folder.ledger());
     std::optional<Claim> claim;
     const std::string designSha256 = sha256(study.design());
-    if (!session.rehearsal) {
-        claim.emplace(ledger, session, designSha256);
+    if (resumed)
+        claim.emplace(ledger, before.slot, session, designSha256);
+    else if (!session.rehearsal)
+        claim.emplace(ledger, session, designSha256,
+                      session.simulated ? highestSlot : study.protocol.ordering.participants);
+    if (claim)
         keepDesign(folder, study);
-    }
     const Assignment assignment = assign(study.protocol, claim ? claim->slot() : 1);
     const Refresh refresh = observer.refresh();
     const Context context{study, session, assignment, refresh, designSha256};
-    Recorder recorder(folder, session, assignment.slot,
-                      pairPhasesOf(study.protocol.trial).has_value());
+    const bool pairs = pairPhasesOf(study.protocol.trial).has_value();
+    Recorder recorder = resumed ? Recorder::resume(folder, before, pairs)
+                                : Recorder(folder, session, assignment.slot, pairs);
     ordered_json sidecar = circumstances(context, observer);
+    if (resumed)
+        sidecar = continued(folder.sidecar(session), sidecar, before);
     writeFile(folder.sidecar(session), sidecar.dump(2) + "\n");
 
     bool completed = false;
@@ -143,12 +99,15 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
     std::vector<double> intervals;
     std::optional<EndedBySignal> ended;
     try {
-        completed = observer.instruct() && playAll(context, observer, recorder, intervals);
+        completed = observer.instruct() && playAll(context, before, observer, recorder, intervals);
         if (completed)
             reason = "completed";
     } catch (const EndedBySignal& signal) {
         ended = signal;
         reason = "ended by " + signal.name();
+    } catch (const std::exception& error) {
+        noteStop(recorder, error.what());
+        throw;
     }
     recorder.end(reason);
     addOutcome(sidecar, reason, intervals, refresh.hz);
@@ -160,6 +119,22 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
     if (completed)
         observer.thank();
     return completed;
+}
+
+} // namespace
+
+bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
+                Observer& observer) {
+    throwIfEnded();
+    folder.prepare();
+    return run(study, folder, {session, 0, {}, 0, {}}, false, observer);
+}
+
+bool resumeSession(const Study& study, const DataFolder& folder, const BrokenSession& broken,
+                   Observer& observer) {
+    throwIfEnded();
+    folder.prepare();
+    return run(study, folder, broken, true, observer);
 }
 
 } // namespace obscura
