@@ -3,6 +3,7 @@
 // our readers.
 
 #include "experiment/session.h"
+#include "experiment/simulated.h"
 #include "tests/experiment/bids.h"
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/shipped_studies.h"
