@@ -1,13 +1,23 @@
 #include "inference/boosted.h"
-#include "base/error.h"
-#include "inference/newton.h"
 
+#include "base/error.h"
+
+#include "inference/likelihood.h"
+#include "inference/newton.h"
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace obscura {
 namespace {
+
+double valueOf(const Predictor& predictor, const Eigen::VectorXd& parameters) {
+    double value = 0;
+    for (const Term& term : predictor)
+        value += parameters(term.parameter) * term.factor;
+    return value;
+}
 
 // Parameters: x of all items but the source, then the polynomial's two.
 class Model {
@@ -68,8 +78,8 @@ class Model {
         const Local quadratic = Local::variable(valueOf(quadratic_, x), 3);
         const Local apart = xi - xj;
         const Local plainApart = linear * apart + quadratic * (apart * (xi + xj));
-        const Local log = seen * logProbability(Noise::normal, jodUnit * apart) +
-                          seenPlain * logProbability(Noise::normal, jodUnit * plainApart);
+        const Local log = seen * logProbability(Link::probit, jodUnit * apart) +
+                          seenPlain * logProbability(Link::probit, jodUnit * plainApart);
         return add<4>(-log, {&items_[i], &items_[j], &linear_, &quadratic_}, gradient, hessian);
     }
 

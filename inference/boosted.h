@@ -16,10 +16,10 @@ namespace obscura {
 // that 1 JND is 75 % of plain answers; the source lies at 0. The published method names a unified
 // model of both; that the map is this polynomial is our choice.
 struct BoostedScale {
-    Scale scale;               // relative to the source: values (y) and covariance
-    Eigen::VectorXd boosted;   // x, in boosted JND
+    Scale scale;             // relative to the source: values (y) and covariance
+    Eigen::VectorXd boosted; // x, in boosted JND
     Estimate linear, quadratic;
-    bool isMonotone = false;   // y rises with x over all x: else do not trust it
+    bool isMonotone = false; // y rises with x over all x: else do not trust it
 };
 
 // wins(i, j): i was said to differ more from the source than j ("not sure" as half a vote each).

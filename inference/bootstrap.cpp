@@ -1,16 +1,15 @@
 #include "inference/bootstrap.h"
+
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/percentile.h"
 #include "base/random.h"
-#include "inference/likelihood.h"
 
-#include <boost/math/special_functions/erf.hpp>
+#include "inference/link.h"
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace obscura {
 namespace {
@@ -59,8 +58,6 @@ std::vector<double> column(const std::vector<Figures>& samples, Eigen::Index fig
     return values;
 }
 
-double probit(double p) { return -std::numbers::sqrt2 * boost::math::erfc_inv(2 * p); }
-
 // Efron and Tibshirani, equation 14.15: the skewness of the jackknife's values over 6.
 double acceleration(const std::vector<double>& left) {
     double mean = 0, squares = 0, cubes = 0;
@@ -81,14 +78,15 @@ Interval bcaInterval(const std::vector<double>& samples, double estimate,
     for (const double value : samples)
         below += value < estimate ? 1 : value == estimate ? 0.5 : 0;
     const auto count = static_cast<double>(samples.size());
-    const double bias = probit(std::clamp(below / count, 0.5 / count, 1 - 0.5 / count));
+    const double bias =
+        quantile(Link::probit, std::clamp(below / count, 0.5 / count, 1 - 0.5 / count));
     const double skew = acceleration(left);
     const auto limit = [&](double share) {
-        const double z = bias + probit(share);
+        const double z = bias + quantile(Link::probit, share);
         const double scale = 1 - skew * z;
         // Beyond the pole the transformation has no meaning; its limit is the outermost sample.
-        const double corrected = scale > 0 ? probability(Noise::normal, bias + z / scale)
-                                           : (z > 0 ? 1.0 : 0.0);
+        const double corrected =
+            scale > 0 ? distribution(Link::probit, bias + z / scale).below : (z > 0 ? 1.0 : 0.0);
         return percentile(samples, corrected);
     };
     return {limit(tail), limit(1 - tail)};
@@ -107,11 +105,11 @@ void check(int observers, const BootstrapSettings& settings) {
     if (observers < 2)
         throw Error(fmt::format("expected at least 2 observers to draw from, found {}", observers));
     if (settings.samples < 100)
-        throw Error(fmt::format("expected at least 100 bootstrap samples, found {}",
-                                settings.samples));
+        throw Error(
+            fmt::format("expected at least 100 bootstrap samples, found {}", settings.samples));
     if (!(settings.confidence >= 0.5 && settings.confidence <= 0.999))
-        throw Error(fmt::format("expected a confidence from 0.5 to 0.999, found {}",
-                                settings.confidence));
+        throw Error(
+            fmt::format("expected a confidence from 0.5 to 0.999, found {}", settings.confidence));
 }
 
 } // namespace

@@ -2,7 +2,6 @@
 
 #include "inference/result.h"
 #include "inference/scales.h"
-
 #include <Eigen/Core>
 
 #include <cstdint>
@@ -19,10 +18,10 @@ namespace obscura {
 using Resampled = std::function<std::optional<Eigen::VectorXd>(std::span<const int> times)>;
 
 struct BootstrapSettings {
-    int samples = 2000;         // >= 100
-    double confidence = 0.95;   // 0.5 to 0.999
+    int samples = 2000;       // >= 100
+    double confidence = 0.95; // 0.5 to 0.999
     std::uint64_t seed = 1;
-    int threads = 0;            // 0: one for each core; the result is the same
+    int threads = 0; // 0: one for each core; the result is the same
 };
 
 struct Bootstrap {

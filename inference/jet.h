@@ -44,8 +44,8 @@ struct Jet {
     friend Jet operator*(const Jet& a, const Jet& b) {
         Jet product(a.value * b.value);
         product.first = a.value * b.first + b.value * a.first;
-        product.second = a.value * b.second + b.value * a.second +
-                         a.first * b.first.transpose() + b.first * a.first.transpose();
+        product.second = a.value * b.second + b.value * a.second + a.first * b.first.transpose() +
+                         b.first * a.first.transpose();
         return product;
     }
 };

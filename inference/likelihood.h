@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/jet.h"
-
+#include "inference/link.h"
 #include <Eigen/Core>
 
 #include <array>
@@ -9,23 +9,11 @@
 
 namespace obscura {
 
-// The noise that a difference of two impressions is seen through: logistic (Bradley and Terry
-// 1952), or normal with standard deviation 1 (Thurstone 1927, case V).
-enum class Noise { logistic, normal };
-
-double probability(Noise noise, double x); // F(x), relative precision kept in the lower tail
-double logProbability(Noise noise, double x);
-
-// log F and its first two derivatives, finite and precise however far out x lies.
-struct LogProbability {
-    double value, first, second;
-};
-LogProbability logProbabilityWithDerivatives(Noise noise, double x);
-
+// log F(x) of a link's distribution.
 template <int N>
-Jet<N> logProbability(Noise noise, const Jet<N>& x) {
-    const LogProbability f = logProbabilityWithDerivatives(noise, x.value);
-    return x.through(f.value, f.first, f.second);
+Jet<N> logProbability(Link link, const Jet<N>& x) {
+    const Evidence of = evidence(link, x.value, 1, 1);
+    return x.through(of.value, of.slope, of.curvature);
 }
 
 // A linear function of the parameters.
@@ -35,20 +23,19 @@ struct Term {
 };
 using Predictor = std::vector<Term>;
 
-double valueOf(const Predictor& predictor, const Eigen::VectorXd& parameters);
-
-// Adds to a gradient and a Hessian (left alone where it has no size) what a function of some
-// predictors contributes, and gives its value.
+// Adds to a gradient and a Hessian what a function of some predictors contributes, and gives its
+// value.
 template <int N>
 double add(const Jet<N>& jet, const std::array<const Predictor*, N>& predictors,
            Eigen::VectorXd& gradient, Eigen::MatrixXd& hessian) {
-    for (int a = 0; a < N; ++a)
+    for (std::size_t a = 0; a < N; ++a)
         for (const Term& row : *predictors[a]) {
-            gradient(row.parameter) += jet.first(a) * row.factor;
-            for (int b = 0; b < N && hessian.size() > 0; ++b)
+            gradient(row.parameter) += jet.first(static_cast<int>(a)) * row.factor;
+            for (std::size_t b = 0; b < N; ++b)
                 for (const Term& column : *predictors[b])
                     hessian(row.parameter, column.parameter) +=
-                        jet.second(a, b) * row.factor * column.factor;
+                        jet.second(static_cast<int>(a), static_cast<int>(b)) * row.factor *
+                        column.factor;
         }
     return jet.value;
 }

@@ -1,7 +1,8 @@
 #include "inference/mlds.h"
-#include "base/error.h"
-#include "inference/newton.h"
 
+#include "base/error.h"
+
+#include "inference/glm.h"
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,17 +20,24 @@ void checkQuadruple(int levels, const Quadruple& q) {
                                 q.a, q.b, q.c, q.d));
 }
 
-// What speaks for the second pair; level 0 stays at 0, level l is parameter l - 1.
-Predictor predictorOf(const Quadruple& q) {
-    const std::pair<int, double> signs[] = {{std::max(q.c, q.d), 1},
-                                            {std::min(q.c, q.d), -1},
-                                            {std::max(q.a, q.b), -1},
-                                            {std::min(q.a, q.b), 1}};
-    Predictor predictor;
-    for (const auto& [level, sign] : signs)
-        if (level > 0)
-            predictor.push_back({level - 1, q.isSecondLarger ? sign : -sign});
-    return predictor;
+// A row for each answer: what speaks for the second pair. Level 0 stays at 0, level l is
+// coefficient l - 1.
+BinomialData rowsOf(int levels, std::span<const Quadruple> answers) {
+    const auto rows = static_cast<Eigen::Index>(answers.size());
+    Eigen::MatrixXd signs = Eigen::MatrixXd::Zero(rows, levels);
+    BinomialData data{
+        .design = {}, .successes = Eigen::VectorXd(rows), .trials = Eigen::VectorXd::Ones(rows)};
+    for (Eigen::Index row = 0; row < rows; ++row) {
+        const Quadruple& q = answers[static_cast<std::size_t>(row)];
+        checkQuadruple(levels, q);
+        signs(row, std::max(q.c, q.d)) += 1;
+        signs(row, std::min(q.c, q.d)) -= 1;
+        signs(row, std::max(q.a, q.b)) -= 1;
+        signs(row, std::min(q.a, q.b)) += 1;
+        data.successes(row) = q.isSecondLarger ? 1 : 0;
+    }
+    data.design = signs.rightCols(levels - 1);
+    return data;
 }
 
 // value / last, and its standard error by the delta method.
@@ -48,31 +56,17 @@ void standardise(DifferenceScale& scale) {
 
 std::optional<DifferenceScale> differenceScale(int levels, std::span<const Quadruple> answers) {
     if (levels < 3)
-        throw Error(fmt::format("expected at least 3 levels to scale differences, found {}", levels));
-    std::vector<Predictor> predictors;
-    for (const Quadruple& answer : answers) {
-        checkQuadruple(levels, answer);
-        predictors.push_back(predictorOf(answer));
-    }
-    const auto objective = [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient,
-                               Eigen::MatrixXd& hessian) {
-        double value = 0;
-        for (const Predictor& predictor : predictors) {
-            const auto evidence = Jet<1>::variable(valueOf(predictor, x), 0);
-            value += add<1>(-logProbability(Noise::normal, evidence), {&predictor}, gradient,
-                            hessian);
-        }
-        return value;
-    };
-    const auto minimum = minimise(objective, Eigen::VectorXd::Zero(levels - 1));
-    if (!minimum)
+        throw Error(
+            fmt::format("expected at least 3 levels to scale differences, found {}", levels));
+    const GlmFit fit = fitGlm(rowsOf(levels, answers), {.link = Link::probit});
+    if (!fit.converged)
         return std::nullopt;
     DifferenceScale scale;
-    scale.logLikelihood = -minimum->value;
+    scale.logLikelihood = fit.logLikelihood;
     scale.values = Eigen::VectorXd::Zero(levels);
     scale.covariance = Eigen::MatrixXd::Zero(levels, levels);
-    scale.values.tail(levels - 1) = minimum->at;
-    scale.covariance.bottomRightCorner(levels - 1, levels - 1) = minimum->inverseHessian;
+    scale.values.tail(levels - 1) = fit.coefficients;
+    scale.covariance.bottomRightCorner(levels - 1, levels - 1) = fit.covariance;
     if (std::abs(scale.values(levels - 1)) < 1e-9)
         return std::nullopt;
     standardise(scale);

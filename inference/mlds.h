@@ -1,9 +1,5 @@
 #pragma once
 
-#include "inference/likelihood.h"
-#include "inference/result.h"
-#include "inference/scales.h"
-
 #include <Eigen/Core>
 
 #include <optional>
@@ -34,8 +30,9 @@ struct DifferenceScale {
     double sigma = 0;
 };
 
-// Absent where the likelihood has no finite maximum: answers that a scale explains without noise,
-// levels that were never shown, or (standard) a last level that equals the first.
+// Absent where the likelihood has no finite maximum (answers that a scale explains without noise),
+// or the last level equals the first. Error where the answers cannot tell the levels apart: one was
+// never shown, or there are fewer kinds of quadruples than levels.
 std::optional<DifferenceScale> differenceScale(int levels, std::span<const Quadruple> answers);
 
 } // namespace obscura

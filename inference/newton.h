@@ -7,9 +7,10 @@
 
 namespace obscura {
 
-// Fills in gradient and Hessian at x and gives the value there.
-using Objective = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient,
-                                       Eigen::MatrixXd& hessian)>;
+// Adds to gradient and Hessian, which are zero, those at x, and gives the value there. Where a
+// Hessian costs too much, optimise.h needs none.
+using CurvedObjective = std::function<double(const Eigen::VectorXd& x, Eigen::VectorXd& gradient,
+                                             Eigen::MatrixXd& hessian)>;
 
 struct Minimum {
     Eigen::VectorXd at;
@@ -21,11 +22,6 @@ struct Minimum {
 // a step would not descend (Marquardt 1963). Absent when there is none: the objective falls
 // forever along a direction, in which its curvature has vanished against that of others (less than
 // 1e-8 of the diagonal's scale), or 200 steps do not get there.
-std::optional<Minimum> minimise(const Objective& objective, const Eigen::VectorXd& start);
-
-// The same from gradients alone (Broyden, Fletcher, Goldfarb, Shanno 1970), where the Hessian
-// would cost too much; the Hessian that `objective` is handed has no size. `inverseHessian` is
-// empty.
-std::optional<Minimum> minimiseByGradient(const Objective& objective, const Eigen::VectorXd& start);
+std::optional<Minimum> minimise(const CurvedObjective& objective, const Eigen::VectorXd& start);
 
 } // namespace obscura

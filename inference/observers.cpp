@@ -1,6 +1,8 @@
 #include "inference/observers.h"
+
 #include "base/error.h"
 
+#include "inference/likelihood.h"
 #include <Eigen/Cholesky>
 #include <fmt/format.h>
 
@@ -44,10 +46,10 @@ Jet<4> surprise(double apart, const Triple& observer, bool choseFirst) {
     const Local precision = exp(Local::variable(observer(1), 2));
     const Local logit = Local::variable(observer(2), 3);
     const Local evidence = precision * difference + bias;
-    const Local lapse = exp(logProbability(Noise::logistic, logit));
-    const Local attends = exp(logProbability(Noise::logistic, -logit));
-    const Local p = 0.5 * lapse + attends * exp(logProbability(Noise::logistic,
-                                                               choseFirst ? evidence : -evidence));
+    const Local lapse = exp(logProbability(Link::logit, logit));
+    const Local attends = exp(logProbability(Link::logit, -logit));
+    const Local p =
+        0.5 * lapse + attends * exp(logProbability(Link::logit, choseFirst ? evidence : -evidence));
     return -p.through(std::log(p.value), 1 / p.value, -1 / (p.value * p.value));
 }
 
@@ -100,8 +102,9 @@ struct Posterior {
         gradient += precision * at.values;
         items.diagonal().array() += precision;
         const Triple mean(0, 0, priors.logitLapseMean);
-        const Triple weight =
-            Triple(priors.biasSd, priors.logPrecisionSd, priors.logitLapseSd).cwiseAbs2().cwiseInverse();
+        const Triple weight = Triple(priors.biasSd, priors.logPrecisionSd, priors.logitLapseSd)
+                                  .cwiseAbs2()
+                                  .cwiseInverse();
         for (std::size_t o = 0; o < blocks.size(); ++o) {
             const Triple away = at.observers[o] - mean;
             value += weight.dot(away.cwiseAbs2()) / 2;
@@ -142,9 +145,9 @@ struct Elimination {
             right += posterior.blocks[o].withItems * (inverses[o] * posterior.blocks[o].gradient);
         State move{items.solve(right), {}};
         for (std::size_t o = 0; o < inverses.size(); ++o)
-            move.observers.push_back(
-                -inverses[o] * (posterior.blocks[o].gradient +
-                                posterior.blocks[o].withItems.transpose() * move.values));
+            move.observers.push_back(-inverses[o] *
+                                     (posterior.blocks[o].gradient +
+                                      posterior.blocks[o].withItems.transpose() * move.values));
         return move;
     }
 };
@@ -171,7 +174,8 @@ struct Mode {
 };
 
 // Newton's steps as minimise() takes them, on a Hessian too large to store.
-std::optional<Mode> findMode(State at, std::span<const Count> counts, const ObserverPriors& priors) {
+std::optional<Mode> findMode(State at, std::span<const Count> counts,
+                             const ObserverPriors& priors) {
     Posterior posterior(at, counts, priors);
     double damping = 0;
     for (int step = 0; step < 200 && damping < 1e12; ++step) {
@@ -203,7 +207,8 @@ Wins winsOf(int items, std::span<const Choice> choices) {
     return wins;
 }
 
-void check(int items, int observers, std::span<const Choice> choices, const ObserverPriors& priors) {
+void check(int items, int observers, std::span<const Choice> choices,
+           const ObserverPriors& priors) {
     if (items < 2 || observers < 1)
         throw Error(fmt::format("expected at least 2 items and 1 observer, found {} and {}", items,
                                 observers));
@@ -221,7 +226,7 @@ void check(int items, int observers, std::span<const Choice> choices, const Obse
 
 Observer observerOf(const Triple& at, const Eigen::Matrix3d& covariance) {
     const Triple error = covariance.diagonal().cwiseSqrt();
-    const double lapse = probability(Noise::logistic, at(2)), precision = std::exp(at(1));
+    const double lapse = distribution(Link::logit, at(2)).below, precision = std::exp(at(1));
     return {{at(0), error(0)},
             {lapse, lapse * (1 - lapse) * error(2)},
             {precision, precision * error(1)}};
@@ -239,17 +244,17 @@ std::optional<ObserverModel> observerModel(int items, int observers,
     State start{Eigen::VectorXd::Zero(items), {}};
     if (const auto scale = bradleyTerry(wins, priors.valueSd))
         start.values = scale->values;
-    start.observers.assign(static_cast<std::size_t>(observers), Triple(0, 0, priors.logitLapseMean));
+    start.observers.assign(static_cast<std::size_t>(observers),
+                           Triple(0, 0, priors.logitLapseMean));
     const auto mode = findMode(std::move(start), counted(choices), priors);
     if (!mode)
         return std::nullopt;
 
     const Eigen::MatrixXd covariance =
         mode->elimination.items.solve(Eigen::MatrixXd::Identity(items, items));
-    ObserverModel result{
-        .scale = {.values = mode->at.values.array() - mode->at.values.mean(),
-                  .covariance = centred(covariance)},
-        .logPosterior = -mode->posterior.value};
+    ObserverModel result{.scale = {.values = mode->at.values.array() - mode->at.values.mean(),
+                                   .covariance = centred(covariance)},
+                         .logPosterior = -mode->posterior.value};
     for (std::size_t o = 0; o < mode->at.observers.size(); ++o) {
         const Eigen::Matrix3d& inverse = mode->elimination.inverses[o];
         const auto slope = inverse * mode->posterior.blocks[o].withItems.transpose();

@@ -1,7 +1,8 @@
 #include "inference/ranks.h"
-#include "base/error.h"
-#include "inference/newton.h"
 
+#include "base/error.h"
+
+#include "inference/newton.h"
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,8 +14,8 @@ void checkRanking(int items, const Ranking& ranking) {
     std::vector<bool> isSeen(static_cast<std::size_t>(items));
     for (const int item : ranking) {
         if (item < 0 || item >= items)
-            throw Error(fmt::format("expected items from 0 to {} in a ranking, found {}", items - 1,
-                                    item));
+            throw Error(
+                fmt::format("expected items from 0 to {} in a ranking, found {}", items - 1, item));
         if (isSeen[static_cast<std::size_t>(item)])
             throw Error(fmt::format("expected each item once in a ranking, found {} twice", item));
         isSeen[static_cast<std::size_t>(item)] = true;

@@ -1,9 +1,9 @@
 #include "inference/scales.h"
-#include "base/error.h"
-#include "inference/newton.h"
 
+#include "base/error.h"
+
+#include "inference/glm.h"
 #include <Eigen/Cholesky>
-#include <boost/math/special_functions/erf.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 
@@ -17,8 +17,9 @@ namespace obscura {
 void checkWins(const Wins& wins) {
     const auto rows = wins.rows();
     if (rows < 2 || rows != wins.cols())
-        throw Error(fmt::format("expected a square matrix of wins of at least 2 items, found {} x {}",
-                                rows, wins.cols()));
+        throw Error(
+            fmt::format("expected a square matrix of wins of at least 2 items, found {} x {}", rows,
+                        wins.cols()));
     for (int i = 0; i < rows; ++i)
         for (int j = 0; j < rows; ++j)
             if (!(wins(i, j) >= 0) || std::isinf(wins(i, j)) || (i == j && wins(i, j) != 0))
@@ -70,43 +71,27 @@ std::optional<double> checkedPrior(std::optional<double> sd) {
     return sd;
 }
 
-double pairLogLikelihood(const Wins& wins, Noise noise, const Eigen::VectorXd& values) {
-    double sum = 0;
-    for (int i = 0; i < wins.rows(); ++i)
-        for (int j = 0; j < wins.cols(); ++j)
-            if (wins(i, j) > 0)
-                sum += wins(i, j) * logProbability(noise, values(i) - values(j));
-    return sum;
-}
-
-// With the prior, or with the values' mean tied to 0, which changes no difference.
-Objective pairObjective(const Wins& wins, Noise noise, std::optional<double> priorSd) {
-    return [&wins, noise, priorSd](const Eigen::VectorXd& x, Eigen::VectorXd& gradient,
-                                   Eigen::MatrixXd& hessian) {
-        double value = 0;
-        for (int i = 0; i < x.size(); ++i)
-            for (int j = 0; j < x.size(); ++j) {
-                if (wins(i, j) == 0)
-                    continue;
-                const Predictor predictor = {{i, 1}, {j, -1}};
-                const auto d = Jet<1>::variable(x(i) - x(j), 0);
-                value += add<1>(-wins(i, j) * logProbability(noise, d), {&predictor}, gradient,
-                                hessian);
-            }
-        if (priorSd) {
-            const double precision = 1 / (*priorSd * *priorSd);
-            gradient += precision * x;
-            hessian.diagonal().array() += precision;
-            return value + precision * x.squaredNorm() / 2;
+// Every pair compared is a row of tallies. Without a prior item 0 stays at 0 and item i is
+// coefficient i - 1; with one, which ties the level down, it is i.
+BinomialData pairRows(const Wins& wins, bool hasPrior) {
+    const auto items = static_cast<int>(wins.rows());
+    const int first = hasPrior ? 0 : 1, rows = items * (items - 1) / 2;
+    BinomialData data{.design = Eigen::MatrixXd::Zero(rows, items - first),
+                      .successes = Eigen::VectorXd(rows),
+                      .trials = Eigen::VectorXd(rows)};
+    int row = 0;
+    for (int i = 0; i < items; ++i)
+        for (int j = 0; j < i; ++j, ++row) {
+            data.design(row, i - first) = 1;
+            if (j >= first)
+                data.design(row, j - first) = -1;
+            data.successes(row) = wins(i, j);
+            data.trials(row) = wins(i, j) + wins(j, i);
         }
-        const double sum = x.sum();
-        gradient.array() += sum;
-        hessian.array() += 1;
-        return value + sum * sum / 2;
-    };
+    return data;
 }
 
-void addDeviances(Scale& scale, const Wins& wins, Noise noise) {
+void addDeviances(Scale& scale, const Wins& wins, Link link) {
     double saturated = 0, equal = 0;
     int pairs = 0;
     for (int i = 0; i < wins.rows(); ++i)
@@ -115,26 +100,35 @@ void addDeviances(Scale& scale, const Wins& wins, Noise noise) {
             if (total == 0)
                 continue;
             ++pairs;
-            saturated += xLogX(wins(i, j), wins(i, j) / total) + xLogX(wins(j, i), wins(j, i) / total);
+            scale.logLikelihood +=
+                evidence(link, scale.values(i) - scale.values(j), wins(i, j), total).value;
+            saturated +=
+                xLogX(wins(i, j), wins(i, j) / total) + xLogX(wins(j, i), wins(j, i) / total);
             equal -= total * std::numbers::ln2;
         }
-    scale.logLikelihood = pairLogLikelihood(wins, noise, scale.values);
     scale.deviance = std::max(0.0, 2 * (saturated - scale.logLikelihood));
     scale.nullDeviance = std::max(0.0, 2 * (saturated - equal));
     scale.freedom = pairs - static_cast<int>(wins.rows()) + 1;
 }
 
-std::optional<Scale> pairScale(const Wins& wins, Noise noise, std::optional<double> priorSd) {
+std::optional<Scale> pairScale(const Wins& wins, Link link, std::optional<double> priorSd) {
     checkWins(wins);
     if (!isFinite(wins, checkedPrior(priorSd).has_value()))
         return std::nullopt;
-    const auto minimum =
-        minimise(pairObjective(wins, noise, priorSd), Eigen::VectorXd::Zero(wins.rows()));
-    if (!minimum)
+    GlmOptions options{.link = link};
+    const auto items = wins.rows();
+    if (priorSd)
+        options.priorPrecision = Eigen::MatrixXd::Identity(items, items) / (*priorSd * *priorSd);
+    const GlmFit fit = fitGlm(pairRows(wins, priorSd.has_value()), options);
+    if (!fit.converged)
         return std::nullopt;
-    Scale scale{.values = minimum->at.array() - minimum->at.mean(),
-                .covariance = centred(minimum->inverseHessian)};
-    addDeviances(scale, wins, noise);
+    const auto fixed = items - fit.coefficients.size();
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(items);
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(items, items);
+    values.tail(items - fixed) = fit.coefficients;
+    covariance.bottomRightCorner(items - fixed, items - fixed) = fit.covariance;
+    Scale scale{.values = values.array() - values.mean(), .covariance = centred(covariance)};
+    addDeviances(scale, wins, link);
     return scale;
 }
 
@@ -144,8 +138,8 @@ Test chiSquareTest(double statistic, int freedom) {
 
 void checkItem(const Scale& scale, int item) {
     if (item < 0 || item >= scale.values.size())
-        throw Error(fmt::format("expected an item from 0 to {}, found {}", scale.values.size() - 1,
-                                item));
+        throw Error(
+            fmt::format("expected an item from 0 to {}, found {}", scale.values.size() - 1, item));
 }
 
 } // namespace
@@ -182,13 +176,13 @@ Scale inUnits(Scale scale, double unit) {
 }
 
 std::optional<Scale> bradleyTerry(const Wins& wins, std::optional<double> priorSd) {
-    return pairScale(wins, Noise::logistic, priorSd);
+    return pairScale(wins, Link::logit, priorSd);
 }
 
 std::optional<Scale> thurstone(const Wins& wins, std::optional<double> priorSd) {
     if (priorSd)
         priorSd = *priorSd * jodUnit;
-    const auto scale = pairScale(wins, Noise::normal, priorSd);
+    const auto scale = pairScale(wins, Link::probit, priorSd);
     return scale ? std::optional(inUnits(*scale, jodUnit)) : std::nullopt;
 }
 
@@ -207,9 +201,8 @@ std::optional<Eigen::VectorXd> thurstoneLeastSquares(const Wins& wins) {
                 return std::nullopt;
             normal(i, i) += 1;
             normal(i, j) -= 1;
-            // probit(share), from the smaller tail
-            const double tail = boost::math::erfc_inv(2 * std::min(wins(i, j), wins(j, i)) / total);
-            right(i) += std::numbers::sqrt2 * (wins(i, j) < wins(j, i) ? -tail : tail);
+            const double tail = quantile(Link::probit, std::min(wins(i, j), wins(j, i)) / total);
+            right(i) += wins(i, j) < wins(j, i) ? tail : -tail;
         }
     return normal.llt().solve(right) / jodUnit;
 }
@@ -226,9 +219,10 @@ std::optional<Test> mosteller(const Wins& wins, const Eigen::VectorXd& jods) {
             const double total = wins(i, j) + wins(j, i);
             if (total == 0)
                 continue;
-            const double predicted = probability(Noise::normal, jodUnit * (jods(i) - jods(j)));
-            const double apart = std::asin(std::sqrt(wins(i, j) / total)) -
-                                 std::asin(std::sqrt(predicted));
+            const double predicted =
+                distribution(Link::probit, jodUnit * (jods(i) - jods(j))).below;
+            const double apart =
+                std::asin(std::sqrt(wins(i, j) / total)) - std::asin(std::sqrt(predicted));
             statistic += 4 * total * apart * apart;
             ++freedom;
         }
@@ -257,7 +251,7 @@ Test differenceTest(const Scale& scale, int item, int other) {
         throw Error(fmt::format("expected two items to compare, found item {} twice", item));
     const Estimate estimate = difference(scale, item, other);
     const double z = estimate.value / estimate.standardError;
-    return {z, {}, boost::math::erfc(std::abs(z) / std::numbers::sqrt2)};
+    return {z, {}, std::erfc(std::abs(z) / std::numbers::sqrt2)};
 }
 
 std::optional<Test> fitTest(const Scale& scale) {

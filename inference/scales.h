@@ -1,8 +1,6 @@
 #pragma once
 
-#include "inference/likelihood.h"
 #include "inference/result.h"
-
 #include <Eigen/Core>
 
 #include <optional>

@@ -1,7 +1,9 @@
 #include "inference/ties.h"
-#include "base/error.h"
-#include "inference/newton.h"
 
+#include "base/error.h"
+
+#include "inference/likelihood.h"
+#include "inference/newton.h"
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -42,17 +44,17 @@ Outcomes davidsonOutcomes(const Outcome& difference, const Outcome& logNu) {
     return {half - logSum, -half - logSum, logNu - logSum};
 }
 
-Outcomes thresholdOutcomes(Noise noise, const Outcome& difference, const Outcome& logThreshold) {
+Outcomes thresholdOutcomes(Link link, const Outcome& difference, const Outcome& logThreshold) {
     const Outcome threshold = exp(logThreshold);
     // F(t - d) - F(-t - d), taken in the tail where d >= 0, so that nothing cancels.
     const Outcome apart = difference.value < 0 ? -difference : difference;
-    const Outcome upper = logProbability(noise, threshold - apart);
-    const Outcome lower = logProbability(noise, -threshold - apart);
-    return {logProbability(noise, difference - threshold),
-            logProbability(noise, -difference - threshold), upper + log1mExp(lower - upper)};
+    const Outcome upper = logProbability(link, threshold - apart);
+    const Outcome lower = logProbability(link, -threshold - apart);
+    return {logProbability(link, difference - threshold),
+            logProbability(link, -difference - threshold), upper + log1mExp(lower - upper)};
 }
 
-Objective tieObjective(const Wins& wins, const Eigen::MatrixXd& ties, const Model& model) {
+CurvedObjective tieObjective(const Wins& wins, const Eigen::MatrixXd& ties, const Model& model) {
     return [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient, Eigen::MatrixXd& hessian) {
         const auto items = static_cast<int>(wins.rows());
         const Predictor tie = {{items, 1}};
@@ -95,8 +97,8 @@ void addDeviances(Scale& scale, const Wins& wins, const Eigen::MatrixXd& ties) {
             if (total == 0)
                 continue;
             ++pairs;
-            saturated += pair.logLikelihood(pair.ties / total, pair.wins / total,
-                                            pair.losses / total);
+            saturated +=
+                pair.logLikelihood(pair.ties / total, pair.wins / total, pair.losses / total);
             equal += pair.logLikelihood(tieShare, (1 - tieShare) / 2, (1 - tieShare) / 2);
         }
     scale.deviance = std::max(0.0, 2 * (saturated - scale.logLikelihood));
@@ -141,13 +143,13 @@ std::optional<TieScale> davidson(const Wins& wins, const Eigen::MatrixXd& ties) 
     return tieScale(wins, ties, davidsonOutcomes);
 }
 
-std::optional<TieScale> thresholdScale(const Wins& wins, const Eigen::MatrixXd& ties, Noise noise) {
+std::optional<TieScale> thresholdScale(const Wins& wins, const Eigen::MatrixXd& ties, Link link) {
     checkTies(wins, ties);
-    const bool isNormal = noise == Noise::normal;
+    const bool isNormal = link == Link::probit;
     if (ties.isZero())
         return withoutTies(isNormal ? thurstone(wins) : bradleyTerry(wins), wins);
-    auto result = tieScale(wins, ties, [noise](const Outcome& difference, const Outcome& tie) {
-        return thresholdOutcomes(noise, difference, tie);
+    auto result = tieScale(wins, ties, [link](const Outcome& difference, const Outcome& tie) {
+        return thresholdOutcomes(link, difference, tie);
     });
     if (result && isNormal) {
         result->scale = inUnits(std::move(result->scale), jodUnit);

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "inference/link.h"
 #include "inference/scales.h"
-
 #include <Eigen/Core>
 
 #include <optional>
@@ -28,6 +28,6 @@ std::optional<TieScale> davidson(const Wins& wins, const Eigen::MatrixXd& ties);
 // t = log theta. Normal: Glenn and David, Biometrics 16 (1960) 86, that is Thurstone's case V, all
 // in JOD: q(i) - q(j) = 1 and t = 0 is 75 %. Agrees with R's ordinal 2022.11.16,
 // clm(threshold = "symmetric2"). Absent as davidson() is.
-std::optional<TieScale> thresholdScale(const Wins& wins, const Eigen::MatrixXd& ties, Noise noise);
+std::optional<TieScale> thresholdScale(const Wins& wins, const Eigen::MatrixXd& ties, Link link);
 
 } // namespace obscura
