@@ -252,9 +252,10 @@ std::optional<ObserverModel> observerModel(int items, int observers,
 
     const Eigen::MatrixXd covariance =
         mode->elimination.items.solve(Eigen::MatrixXd::Identity(items, items));
-    ObserverModel result{.scale = {.values = mode->at.values.array() - mode->at.values.mean(),
-                                   .covariance = centred(covariance)},
-                         .logPosterior = -mode->posterior.value};
+    ObserverModel result;
+    result.scale.values = mode->at.values.array() - mode->at.values.mean();
+    result.scale.covariance = centred(covariance);
+    result.logPosterior = -mode->posterior.value;
     for (std::size_t o = 0; o < mode->at.observers.size(); ++o) {
         const Eigen::Matrix3d& inverse = mode->elimination.inverses[o];
         const auto slope = inverse * mode->posterior.blocks[o].withItems.transpose();

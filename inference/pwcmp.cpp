@@ -104,7 +104,7 @@ double objective(const Pairs& pairs, const Eigen::VectorXd& q, Eigen::VectorXd& 
     const Eigen::ArrayXd pulledQ =
         pull(shares.forward, pairs.pulledLost) + pull(shares.reversed, pairs.pulledWon);
     const Eigen::ArrayXd slope =
-        at.slopeP * (pairs.won + 2 * pulledP) + at.slopeQ * (pairs.lost + 2 * pulledQ);
+        at.slopeP * (pairs.won + pulledP) + at.slopeQ * (pairs.lost + pulledQ);
     gradient.setConstant(q.size(), -0.02 * q.mean() / static_cast<double>(q.size()));
     Eigen::Index row = 0;
     for (const auto& [i, j] : pairs.items) {
