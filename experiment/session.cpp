@@ -61,6 +61,14 @@ bool playAll(const Context& context, const BrokenSession& before, Observer& obse
     return true;
 }
 
+// Of what stopped the session, which may be that nothing can be written any more.
+void noteStop(Recorder& recorder, const std::string& why) {
+    try {
+        recorder.end("stopped: " + why);
+    } catch (const std::exception&) {
+    }
+}
+
 // What goes on after what was before; nothing was, for a new session.
 bool run(const Study& study, const DataFolder& folder, const BrokenSession& before, bool resumed,
          Observer& observer) {
@@ -97,6 +105,9 @@ bool run(const Study& study, const DataFolder& folder, const BrokenSession& befo
     } catch (const EndedBySignal& signal) {
         ended = signal;
         reason = "ended by " + signal.name();
+    } catch (const std::exception& error) {
+        noteStop(recorder, error.what());
+        throw;
     }
     recorder.end(reason);
     addOutcome(sidecar, reason, intervals, refresh.hz);

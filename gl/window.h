@@ -3,6 +3,7 @@
 #include "gl/context.h"
 #include "gl/input.h"
 #include "gl/picture.h"
+#include "gl/sleep_watch.h"
 
 #include <array>
 #include <chrono>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+struct GLFWmonitor;
 struct GLFWwindow;
 
 namespace obscura::gl {
@@ -47,7 +49,9 @@ struct Onset {
 
 // A window with an OpenGL 4.5 context for showing pictures pixel by pixel: double-buffered,
 // synchronised to the vertical blank where the driver can, its framebuffer 8 bits and not sRGB.
-// Input is collected with the time at which it arrived.
+// Input is collected with the time at which it arrived. poll(), swap() and wait() throw an Error
+// once its monitor has been disconnected, or its size has changed. After the machine was suspended,
+// the keyboard counts as lost.
 class Window {
   public:
     explicit Window(const WindowOptions& options);
@@ -108,17 +112,21 @@ class Window {
 
     void open(const WindowOptions& options);
     void listen();
+    void checkScreen();
     Input stamped(Input::Kind kind) const;
     const std::vector<Input>& take();
     Onset awaitOnset() const;
 
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     Library library_;
-    Monitor monitor_;
+    GLFWmonitor* screen_ = nullptr;
+    Monitor monitor_; // the same, described
     std::unique_ptr<GLFWwindow, Destroy> window_;
     int width_ = 0, height_ = 0;
     std::vector<Input> inputs_, taken_;
     void (*interrupt_)();
+    SleepWatch sleep_;
+    std::string lost_; // why nothing can be shown any more; "" for nothing
     Stamp stamp_ = Stamp::finish;
 };
 
