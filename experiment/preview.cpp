@@ -138,16 +138,16 @@ class Preview {
 } // namespace
 
 std::string endOf(const Phase& phase) {
-    std::string end;
-    if (phase.alternate > 0)
-        end = fmt::format("each {:g} s, {} frames; ", phase.alternate,
-                          maskRefreshes(phase.alternate, refreshHz));
     if (!phase.questions.empty())
         return answerOf(phase) +
                (phase.counted() ? fmt::format("; or unanswered after {}", timeOf(phase)) : "");
     if (!phase.counted())
         return keyOf(phase);
-    return end + timeOf(phase) + (phase.locked() ? ", locked" : "; or " + keyOf(phase));
+    const std::string turns = phase.alternate > 0
+                                  ? fmt::format(", in turns of {:g} s, {} frames", phase.alternate,
+                                                maskRefreshes(phase.alternate, refreshHz))
+                                  : "";
+    return timeOf(phase) + turns + (phase.locked() ? ", locked" : "; or " + keyOf(phase));
 }
 
 std::vector<PreviewedScreen> previewed(const Study& study, int width, int height) {
