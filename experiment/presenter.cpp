@@ -349,8 +349,10 @@ double Presenter::show(const TrialMachine& trial) {
     if (!prepared.title.empty())
         title_ = prepared.title;
     std::span<const Placed> images = prepared.images;
-    if (phase.alternate > 0)
-        images = images.subspan(static_cast<std::size_t>(trial.alternation()), 1);
+    if (phase.alternate > 0) {
+        const std::size_t together = images.size() / static_cast<std::size_t>(phase.turns);
+        images = images.subspan(static_cast<std::size_t>(trial.alternation()) * together, together);
+    }
     return showImages(images, prepared.grey);
 }
 

@@ -70,15 +70,17 @@ class Preview {
   private:
     void add(const Phase& phase) {
         Screenful screen = screens_.phase(phase, trial_.index, trial_.count);
-        if (phase.alternate == 0) {
+        if (screen.turns == 1) {
             add(phase.name, endOf(phase), screen);
             return;
         }
-        const std::vector<std::string> images = screen.images;
-        for (std::size_t i = 0; i < images.size(); ++i) {
-            screen.images = {images[i]};
-            add(fmt::format("{}, {} of {} in turn", phase.name, i + 1, images.size()), endOf(phase),
-                screen);
+        const std::vector<std::string> images = std::move(screen.images);
+        const auto together = static_cast<std::ptrdiff_t>(images.size()) / screen.turns;
+        for (int turn = 0; turn < screen.turns; ++turn) {
+            const auto first = images.begin() + turn * together;
+            screen.images.assign(first, first + together);
+            add(fmt::format("{}, {} of {} in turn", phase.name, turn + 1, screen.turns),
+                endOf(phase), screen);
         }
     }
 
@@ -136,16 +138,16 @@ class Preview {
 } // namespace
 
 std::string endOf(const Phase& phase) {
-    std::string end;
-    if (phase.alternate > 0)
-        end = fmt::format("each {:g} s, {} frames; ", phase.alternate,
-                          maskRefreshes(phase.alternate, refreshHz));
     if (!phase.questions.empty())
         return answerOf(phase) +
                (phase.counted() ? fmt::format("; or unanswered after {}", timeOf(phase)) : "");
     if (!phase.counted())
         return keyOf(phase);
-    return end + timeOf(phase) + (phase.locked() ? ", locked" : "; or " + keyOf(phase));
+    const std::string turns = phase.alternate > 0
+                                  ? fmt::format(", in turns of {:g} s, {} frames", phase.alternate,
+                                                maskRefreshes(phase.alternate, refreshHz))
+                                  : "";
+    return timeOf(phase) + turns + (phase.locked() ? ", locked" : "; or " + keyOf(phase));
 }
 
 std::vector<PreviewedScreen> previewed(const Study& study, int width, int height) {

@@ -55,7 +55,7 @@ int TrialMachine::alternation() const {
     const Phase& current = phase(screen_);
     const int each = maskRefreshes(current.alternate, refreshHz_);
     const int shown = record_.phases[static_cast<std::size_t>(screen_)].framesShown;
-    return shown / each % static_cast<int>(current.images.size());
+    return shown / each % current.turns;
 }
 
 void TrialMachine::shown(double time) {

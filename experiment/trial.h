@@ -77,7 +77,7 @@ class TrialMachine {
     Screen screen() const { return screen_; }
     // Of a phase that asks, what its page shows.
     const Form* form() const { return form_ ? &*form_ : nullptr; }
-    // Of a phase that shows images in turn, which is the next to be shown, from 0.
+    // Of a phase that shows images in turn, whose turn is next, from 0.
     int alternation() const;
     const TrialRecord& record() const { return record_; }
 

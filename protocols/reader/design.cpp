@@ -134,7 +134,7 @@ json toJson(const Question& question) {
 json toJson(const std::vector<Phase>& phases) {
     json result = {{"order", json::array()}};
     for (const Phase& phase : phases) {
-        const auto& [name, images, alternate, grey, text, progress, questions, key, atLeast,
+        const auto& [name, images, alternate, turns, grey, text, progress, questions, key, atLeast,
                      seconds, frames, place] = phase;
         json asked = {{"order", json::array()}};
         for (const Question& question : questions) {
@@ -146,6 +146,8 @@ json toJson(const std::vector<Phase>& phases) {
                         {"text", text},     {"progress", progress},   {"questions", asked},
                         {"key", key},       {"atLeast", atLeast},     {"seconds", seconds},
                         {"frames", frames}};
+        if (static_cast<int>(images.size()) > turns && turns > 1) // at several places
+            result[name]["turns"] = turns;
     }
     return result;
 }
@@ -156,6 +158,16 @@ json toJson(const Trial& trial) {
     if (!given.empty())
         return {{"grey", grey}, {"phases", toJson(given)}, {"roles", order}};
     return {{"mask", mask}, {"grey", grey}, {"minimumView", minimumView}};
+}
+
+// Of the scenes in use.
+json toJson(const Boost& boost, const std::set<std::string>& views) {
+    const auto& [reference, amplify, magnify, crop] = boost;
+    json result = {{"reference", reference}, {"amplify", amplify}, {"magnify", magnify}};
+    for (const auto& [view, corner] : crop)
+        if (views.contains(view))
+            result["crop"][view] = corner;
+    return result;
 }
 
 // Conditions are kept by their ids, because pictures do not depend on their order.
@@ -206,7 +218,7 @@ struct Parts {
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, trial, ordering, words, simulation, path, sha256] = protocol;
+                 conditions, boost, trial, ordering, words, simulation, path, sha256] = protocol;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -216,6 +228,8 @@ Parts split(const Protocol& protocol) {
         {"image", {{"width", width}, {"height", height}, {"antialiasing", antialiasing}}},
         {"normals", normalsNames()[static_cast<std::size_t>(normals)]},
         {"conditions", parts.stimuli}};
+    if (boost)
+        result.stimuli["boost"] = toJson(*boost, parts.views);
     result.procedure = {{"trial", toJson(trial)},
                         {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};

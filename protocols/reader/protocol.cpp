@@ -138,14 +138,19 @@ void checkRoles(const Condition& condition, const Protocol& protocol, const Plac
     }
 }
 
-// What the phases show must be there.
+// What the phases show must be there, and what images are boosted against.
 void checkShown(const Condition& condition, const Protocol& protocol, const Place& place) {
-    for (const std::string& role : rolesOf(protocol.trial))
+    std::set<std::string> needed = rolesOf(protocol.trial);
+    if (protocol.boost)
+        needed.insert(protocol.boost->reference);
+    for (const std::string& role : needed)
         if (std::none_of(condition.roles.begin(), condition.roles.end(),
                          [&](const Role& each) { return each.name == role; }))
-            throw Error(place, fmt::format("expected an image \"{}\", which the trial shows, found "
-                                           "none",
-                                           role));
+            throw Error(place,
+                        fmt::format("expected an image \"{}\", which the {}, found none", role,
+                                    rolesOf(protocol.trial).contains(role)
+                                        ? "trial shows"
+                                        : "others are boosted against"));
 }
 
 void parsePair(TomlTable& table, const toml::node& pair, Condition& condition,
@@ -310,6 +315,9 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     includedSha256 = techniques.includedSha256;
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
+    if (auto boost = root.table("boost"))
+        protocol.boost =
+            parseBoost(std::move(*boost), protocol.width, protocol.height, protocol.views);
     parseConditions(root, protocol);
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "protocols/reader/boost.h"
 #include "protocols/reader/ordering.h"
 #include "protocols/reader/study.h"
 #include "protocols/reader/trial.h"
@@ -102,6 +103,7 @@ struct Protocol {
     std::vector<Level> levels;
     std::vector<TechniqueSetting> techniques;
     std::vector<Condition> conditions;
+    std::optional<Boost> boost; // nothing: images are shown as they were rendered
     Trial trial;
     Ordering ordering;
     Texts texts;

@@ -76,13 +76,29 @@ std::string imageName(const TomlTable& table, const toml::node& node, std::strin
                             TomlTable::spell(node)));
 }
 
-std::vector<std::string> parseImages(TomlTable& table) {
-    std::vector<std::string> images;
+// What a place of `images` has in turn: adds the images, and returns how many.
+int parsePlace(const TomlTable& table, const toml::node& node, std::vector<std::string>& images) {
+    const toml::array* turns = node.as_array();
+    if (!turns) {
+        images.push_back(imageName(table, node, "images"));
+        return 1;
+    }
+    if (turns->size() < 2)
+        throw Error(table.placeOf(node, table.pathOf("images")),
+                    fmt::format("expected two images or more in turn at a place, found {}",
+                                TomlTable::spell(node)));
+    for (const toml::node& image : *turns)
+        images.push_back(imageName(table, image, "images"));
+    return static_cast<int>(turns->size());
+}
+
+void parseImages(TomlTable& table, Phase& phase) {
+    std::vector<std::string>& images = phase.images;
     if (const toml::node* image = table.node("image"))
         images.push_back(imageName(table, *image, "image"));
     const toml::node* several = table.node("images");
     if (!several)
-        return images;
+        return;
     const toml::array* list = several->as_array();
     if (!list || list->size() < 2 || !images.empty())
         throw Error(table.placeOf("images"),
@@ -90,8 +106,22 @@ std::vector<std::string> parseImages(TomlTable& table) {
                                 "{}",
                                 TomlTable::spell(*several)));
     for (const toml::node& node : *list)
-        images.push_back(imageName(table, node, "images"));
-    return images;
+        if (const int turns = parsePlace(table, node, images); &node == &list->front())
+            phase.turns = turns;
+        else if (turns != phase.turns)
+            throw Error(table.placeOf(node, table.pathOf("images")),
+                        fmt::format("expected as many images in turn at each place, found {} and "
+                                    "{}",
+                                    phase.turns, turns));
+}
+
+void parseAlternation(TomlTable& table, Phase& phase) {
+    phase.alternate = table.number("alternate", 0.001, 60, phase.alternate);
+    if (phase.alternate == 0 && phase.turns != 1)
+        throw Error(table.placeOf("images"), "expected \"alternate\", the seconds for which each "
+                                             "image of a place is shown in turn");
+    if (phase.alternate > 0 && phase.turns == 1) // all at one place
+        phase.turns = std::max(static_cast<int>(phase.images.size()), 1);
 }
 
 void parseEnd(TomlTable& table, Phase& phase) {
@@ -118,7 +148,10 @@ void checkShows(const TomlTable& table, const Phase& phase) {
                                                "\"text\" and \"questions\" (which images may stand "
                                                "beside), found {}",
                                                shown == 0 ? "none" : "several"));
-    if (phase.alternate > 0 && (phase.images.size() < 2 || !phase.counted()))
+    if (phase.alternate > 0 && !phase.questions.empty())
+        throw Error(table.placeOf("alternate"),
+                    "expected no questions beside images that alternate; ask in the next phase");
+    if (phase.alternate > 0 && (phase.turns < 2 || !phase.counted()))
         throw Error(table.placeOf("alternate"),
                     "expected two images or more and \"seconds\" or \"frames\": each change is one "
                     "of counted refreshes");
@@ -129,8 +162,8 @@ Phase parsePhase(TomlTable table) {
     phase.place = table.place();
     phase.name = table.text("name");
     checkName(table, "name", phase.name, "-", " and hyphens");
-    phase.images = parseImages(table);
-    phase.alternate = table.number("alternate", 0.001, 60, phase.alternate);
+    parseImages(table, phase);
+    parseAlternation(table, phase);
     phase.grey = table.integer("grey", 0, 255, phase.grey);
     phase.text = table.text("text", "");
     phase.progress = table.flag("progress", phase.progress);

@@ -36,7 +36,10 @@ std::string nameOf(Question::Kind kind); // "choice", as protocols spell it
 struct Phase {
     std::string name;                // unique in its trial
     std::vector<std::string> images; // one, or several beside each other
-    double alternate = 0;  // seconds; > 0: the images in turn at one place, each for so long
+    // Seconds; > 0: at each place `turns` images in turn, each for so long, at all places at once;
+    // images[i * turns] is the first of the i-th place.
+    double alternate = 0;
+    int turns = 1;
     int grey = -1;         // 0 ... 255: nothing but this; -1: something else is shown
     std::string text;      // a page with this text; "" for none
     bool progress = false; // above the text, how far the participant is
