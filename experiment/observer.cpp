@@ -14,6 +14,13 @@ constexpr double refreshHz = 60;
 constexpr double quickest = 0.15; // seconds; nobody sees and reacts faster
 constexpr double keyDown = 0.08;  // seconds for which a key is held
 
+// The first option with which the session goes on, from 0.
+int admitted(const Question& question) {
+    const auto option =
+        std::find(question.options.begin(), question.options.end(), question.endsUnless.front());
+    return static_cast<int>(option - question.options.begin());
+}
+
 } // namespace
 
 const std::string& Upcoming::role(const std::string& image) const {
@@ -45,6 +52,7 @@ void SimulatedObserver::describe(nlohmann::ordered_json& sidecar) const {
 }
 
 void SimulatedObserver::prepare(const Upcoming& trial) {
+    page_ = nullptr;
     const Condition& condition =
         protocol_.conditions.at(static_cast<std::size_t>(trial.planned.condition));
     const double preferSecond =
@@ -63,14 +71,15 @@ std::vector<Event> SimulatedObserver::events(bool wait) {
         return {};
     if (const Form* form = trial_->form())
         return answer(*form);
-    const Phase& phase = phases_[static_cast<std::size_t>(trial_->screen())];
+    const Phase& phase = page_ ? *page_ : phases_[static_cast<std::size_t>(trial_->screen())];
     if (phase.images.empty())
         return press(gl::Key::space, draw(protocol_.simulation.decision));
     return press(gl::Key::space,
                  std::max(phase.atLeast + quickest, draw(protocol_.simulation.view)));
 }
 
-// Which image of a pair looks better is the model's; all other questions are answered at random.
+// Which image of a pair looks better is the model's; all other questions are answered at random,
+// but never so that the session ends.
 std::vector<Event> SimulatedObserver::answer(const Form& form) {
     const double after = draw(protocol_.simulation.decision);
     if (form.answered(static_cast<std::size_t>(form.focus())))
@@ -85,6 +94,9 @@ std::vector<Event> SimulatedObserver::answer(const Form& form) {
             return press(random_.uniform() < chooseSecond_ ? gl::Key::two : gl::Key::one, after);
         [[fallthrough]];
     case Question::Kind::scale:
+        if (!question.endsUnless.empty())
+            return press(digit(1 + admitted(question)), after);
+        [[fallthrough]];
     case Question::Kind::rank:
         return press(digit(1 + static_cast<int>(random_.below(
                                    static_cast<std::uint32_t>(form.optionsOf(question))))),

@@ -34,12 +34,15 @@ class Observer {
 
     virtual bool instruct() = 0; // false when the person leaves instead of beginning
     virtual void prepare(const Upcoming& trial) = 0;
+    // The same for a page before or after the trials, which is then screen 0.
+    virtual void preparePage(const Phase& page) = 0;
     // Shows the screen that the prepared trial wants; the time at which it came on.
     virtual double show(const TrialMachine& trial) = 0;
     // What the person has done since; with `wait`, sleeps until there is something.
     virtual std::vector<Event> events(bool wait) = 0;
     virtual bool rest() = 0; // between trials; false when the person leaves instead of going on
     virtual void thank() = 0;
+    virtual void decline() = 0; // says that an answer has ended the session before its trials
 };
 
 // The model, for dry runs and power studies; docs/measurement.md has it in words. The probability
@@ -54,10 +57,12 @@ class SimulatedObserver : public Observer {
     void describe(nlohmann::ordered_json& sidecar) const override;
     bool instruct() override { return true; }
     void prepare(const Upcoming& trial) override;
+    void preparePage(const Phase& page) override { page_ = &page; }
     double show(const TrialMachine& trial) override; // at the next refresh of a 60 Hz clock
     std::vector<Event> events(bool wait) override;
     bool rest() override { return true; }
     void thank() override {}
+    void decline() override {}
 
   private:
     std::vector<Event> press(gl::Key key, double after);
@@ -70,6 +75,7 @@ class SimulatedObserver : public Observer {
     std::uint64_t seed_;
     Random random_;
     double chooseSecond_ = 0.5;
+    const Phase* page_ = nullptr;         // outside trials
     const TrialMachine* trial_ = nullptr; // what it shows
     double clock_ = 0;
 };

@@ -121,16 +121,20 @@ Page::Pictures roomFor(const Phase& phase, int width, int height) {
     return pictures;
 }
 
-Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures) {
+Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures,
+              const std::string& text) {
     Page page;
     page.pictures = pictures;
-    if (form.alone()) {
+    page.text = wordsOf(texts, text);
+    if (form.alone() && text.empty()) {
         page.heading = wordsOf(texts, form.questions().front().text);
         page.options = optionsOf(texts, form, 0);
         return page;
     }
     for (std::size_t i = 0; i < form.questions().size(); ++i)
         page.parts.push_back(partOf(texts, form, i));
+    if (form.alone()) // below what it is about; ended by the answer
+        return page;
     if (page.parts.size() > 1)
         page.note = texts.between;
     page.options = {{texts.enter, texts.done}};
@@ -155,6 +159,13 @@ Page leavePage(const Texts& texts) {
 Page thanksPage(const Texts& texts) {
     Page page;
     page.text = texts.thanks;
+    page.note = texts.anyKey;
+    return page;
+}
+
+Page declinedPage(const Texts& texts) {
+    Page page;
+    page.text = texts.declined;
     page.note = texts.anyKey;
     return page;
 }

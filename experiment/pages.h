@@ -19,11 +19,14 @@ Page textPage(const Texts& texts, const Phase& phase, int pair, int pairs);
 // What a phase of questions leaves free for its images, all of one size. Below each of several that
 // the trial puts in order stands its place, the number that answers have for it.
 Page::Pictures roomFor(const Phase& phase, int width, int height);
-// Of a phase that asks, as far as it is answered, with room for the images that it shows.
-Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures);
+// Of a phase that asks, as far as it is answered, with room for the images that it shows; `text`
+// names what stands above the questions, as of a consent, or nothing.
+Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures,
+              const std::string& text = "");
 Page restPage(const Texts& texts); // a break between trials
 Page leavePage(const Texts& texts);
 Page thanksPage(const Texts& texts);
+Page declinedPage(const Texts& texts); // an answer has ended the session before its trials
 
 // The page as it looks while another window has the keyboard.
 Page unfocused(Page page, const Texts& texts);

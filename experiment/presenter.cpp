@@ -79,9 +79,15 @@ void Presenter::checkFits() const {
                                restPage(texts_),
                                leavePage(texts_),
                                thanksPage(texts_)};
+    for (const auto* around : {&study_.protocol.before, &study_.protocol.after})
+        for (const Phase& page : *around)
+            pages.push_back(pageOf(page));
+    if (!study_.protocol.before.empty())
+        pages.push_back(declinedPage(texts_));
     for (const Phase& phase : phases_)
         if (!phase.questions.empty())
-            pages.push_back(formPage(texts_, Form(phase.questions, places()), room(phase)));
+            pages.push_back(
+                formPage(texts_, Form(phase.questions, places()), room(phase), phase.text));
         else if (!phase.text.empty())
             pages.push_back(textPage(texts_, phase, pairs, pairs));
         else if (!phase.images.empty())
@@ -142,7 +148,7 @@ Presenter::Sheet Presenter::drawn(Page page, std::string title) const {
 }
 
 Presenter::Sheet Presenter::formSheet(const Form& form, const Phase& phase) const {
-    Sheet result = sheet(formPage(texts_, form, room(phase)), "");
+    Sheet result = sheet(formPage(texts_, form, room(phase), phase.text), "");
     result.images = phase.images;
     return result;
 }
@@ -333,9 +339,9 @@ bool Presenter::instruct() { return read(sheet(instructionsPage(texts_), "instru
 
 bool Presenter::rest() { return read(sheet(restPage(texts_), "break")); }
 
-void Presenter::thank() {
-    const Sheet page = sheet(thanksPage(texts_), "thanks");
-    turnTo(page);
+void Presenter::dismiss(Page page, std::string title) {
+    const Sheet last = sheet(std::move(page), std::move(title));
+    turnTo(last);
     answers();
 }
 
@@ -365,8 +371,22 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
     }
 }
 
+// Outside trials, before anything is answered.
+Page Presenter::pageOf(const Phase& page) const {
+    return page.questions.empty()
+               ? textPage(texts_, page, 0, 0)
+               : formPage(texts_, Form(page.questions, 0), room(page), page.text);
+}
+
+void Presenter::preparePage(const Phase& page) {
+    page_ = &page;
+    drawn_ = {};
+    preparedPage_ = {sheet(pageOf(page), page.name), {}, page.name};
+}
+
 void Presenter::prepare(const Upcoming& trial) {
     trial_ = trial;
+    page_ = nullptr;
     drawn_ = {};
     for (std::size_t i = 0; i < phases_.size(); ++i) {
         const Phase& phase = phases_[i];
@@ -389,8 +409,8 @@ double Presenter::show(const TrialMachine& trial) {
     if (trial.screen() == leaveScreen)
         return showSheet(leave_);
     const auto index = static_cast<std::size_t>(trial.screen());
-    const Phase& phase = phases_[index];
-    const Prepared& prepared = prepared_[index];
+    const Phase& phase = page_ ? *page_ : phases_[index];
+    const Prepared& prepared = page_ ? preparedPage_ : prepared_[index];
     if (const Form* form = trial.form(); form && form->changes() > 0) {
         if (drawn_ != std::pair(index, form->changes())) { // not at every refresh of a timed page
             answered_ = formSheet(*form, phase);

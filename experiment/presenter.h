@@ -2,6 +2,7 @@
 
 #include "experiment/display.h"
 #include "experiment/observer.h"
+#include "experiment/pages.h"
 #include "experiment/text.h"
 
 #include <functional>
@@ -39,10 +40,12 @@ class Presenter : public Observer {
     void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
+    void preparePage(const Phase& page) override;
     double show(const TrialMachine& trial) override;
     std::vector<Event> events(bool wait) override;
     bool rest() override;
-    void thank() override;
+    void thank() override { dismiss(thanksPage(texts_), "thanks"); }
+    void decline() override { dismiss(declinedPage(texts_), "declined"); }
 
   private:
     // A page in graphics memory, and where its options are.
@@ -82,6 +85,8 @@ class Presenter : public Observer {
     void turnTo(const Sheet& page);
     bool read(const Sheet& page);
     bool leaves();
+    void dismiss(Page page, std::string title);
+    Page pageOf(const Phase& phase) const;
 
     Display& display_;
     const Study& study_;
@@ -94,6 +99,8 @@ class Presenter : public Observer {
     Sheet answered_;                    // a page of questions as far as it is answered,
     std::pair<std::size_t, int> drawn_; // and of which phase, after how many changes
     Upcoming trial_;                    // the prepared one
+    const Phase* page_ = nullptr;       // outside trials: the prepared page,
+    Prepared preparedPage_;             // and what it shows
 
     // What is on the screen: a page, or else images or, without one, grey.
     const Sheet* sheet_ = nullptr;

@@ -2,12 +2,15 @@
 
 #include "base/files.h"
 #include "experiment/continuity.h"
+#include "experiment/page_run.h"
+#include "experiment/play.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
 #include "experiment/selection.h"
 #include "experiment/sidecar.h"
 #include "experiment/signals.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -18,42 +21,6 @@ namespace obscura {
 using nlohmann::ordered_json;
 
 namespace {
-
-// True when answered, false when the person left. A picture is shown, then all that arrived while
-// it was on its way is handled, and only then does the machine learn that it came on: so a key
-// pressed before it cannot be taken for an answer to it. A picture that only replaces one of the
-// same screen has been on: what arrives meanwhile is an answer to it, and may lead to the next.
-bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int trial,
-          const std::string& condition) {
-    for (;;) {
-        throwIfEnded();
-        switch (machine.next()) {
-        case TrialMachine::Next::journal:
-            recorder.trialStarted(trial, condition);
-            machine.journalled();
-            break;
-        case TrialMachine::Next::present: {
-            const bool anew = machine.isOn();
-            const double time = observer.show(machine);
-            if (anew)
-                machine.shown(time);
-            for (const Event& event : observer.events(false))
-                machine.handle(event);
-            if (!anew)
-                machine.shown(time);
-            break;
-        }
-        case TrialMachine::Next::wait:
-            for (const Event& event : observer.events(true))
-                machine.handle(event);
-            break;
-        case TrialMachine::Next::finished:
-            return true;
-        case TrialMachine::Next::left:
-            return false;
-        }
-    }
-}
 
 // The roles at the places 1, 2 and so on.
 std::vector<std::string> placed(const std::vector<std::string>& roles,
@@ -104,8 +71,11 @@ bool playAll(const Context& context, Observer& observer, Recorder& recorder,
                              placed(protocol.trial.order, planned->roles)};
         TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz);
         observer.prepare(trial);
-        if (!play(machine, observer, recorder, trial.index,
-                  context.study.condition(trial.planned.condition).condition))
+        const auto journal = [&] {
+            recorder.trialStarted(trial.index,
+                                  context.study.condition(trial.planned.condition).condition);
+        };
+        if (!play(machine, observer, journal))
             return false;
         recorder.finished(trial.index, linesOf(context, trial, machine.record()));
         history.push_back(remember(phases, trial, machine.record()));
@@ -143,12 +113,19 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
     std::vector<double> intervals;
     std::optional<EndedBySignal> ended;
     try {
-        completed = observer.instruct() && playAll(context, observer, recorder, intervals);
-        if (completed)
-            reason = "completed";
+        const PagesEnd before = runPages(context, "before", observer, recorder);
+        if (!before.endedBy.empty())
+            reason = fmt::format("ended by the answer to \"{}\"", before.endedBy);
+        completed = before.finished && observer.instruct() &&
+                    playAll(context, observer, recorder, intervals);
+        if (completed) {
+            reason = "completed"; // whatever comes of the pages after
+            runPages(context, "after", observer, recorder);
+        }
     } catch (const EndedBySignal& signal) {
         ended = signal;
-        reason = "ended by " + signal.name();
+        if (!completed)
+            reason = "ended by " + signal.name();
     }
     recorder.end(reason);
     addOutcome(sidecar, reason, intervals, refresh.hz);

@@ -118,16 +118,19 @@ json toJson(const Ordering& ordering) {
 
 json toJson(const Question& question) {
     const auto& [name, kind, text, options, images, unsure, lowest, least, most, low, high,
-                 optional, place] = question;
-    return {{"kind", static_cast<int>(kind)},
-            {"text", text},
-            {"options", options},
-            {"images", images},
-            {"unsure", unsure},
-            {"lowest", lowest},
-            {"range", {least, most}},
-            {"ends", {low, high}},
-            {"optional", optional}};
+                 optional, endsUnless, place] = question;
+    json result = {{"kind", static_cast<int>(kind)},
+                   {"text", text},
+                   {"options", options},
+                   {"images", images},
+                   {"unsure", unsure},
+                   {"lowest", lowest},
+                   {"range", {least, most}},
+                   {"ends", {low, high}},
+                   {"optional", optional}};
+    if (!endsUnless.empty())
+        result["endsUnless"] = endsUnless;
+    return result;
 }
 
 // Lists are kept by name and place, so that what differs is told by name.
@@ -206,7 +209,8 @@ struct Parts {
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, trial, ordering, words, simulation, path, sha256] = protocol;
+                 conditions, trial, before, after, ordering, words, simulation, path, sha256] =
+        protocol;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -219,6 +223,11 @@ Parts split(const Protocol& protocol) {
     result.procedure = {{"trial", toJson(trial)},
                         {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};
+    // Who takes part, and what they have been asked before: studies that ask nothing keep theirs.
+    if (!before.empty())
+        result.procedure["before"] = toJson(before);
+    if (!after.empty())
+        result.procedure["after"] = toJson(after);
     if (!parts.correct.empty())
         result.procedure["correct answers"] = parts.correct;
     result.texts = {{"name", name},

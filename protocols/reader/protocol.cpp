@@ -246,7 +246,14 @@ void checkProgress(const std::string& text, const Place& place) {
                                        text));
 }
 
-// Every text of the program's own, and those that the trial's phases name besides.
+std::set<std::string> textsOf(const Protocol& protocol) {
+    std::set<std::string> keys = textsOf(phasesOf(protocol.trial));
+    keys.merge(textsOf(protocol.before));
+    keys.merge(textsOf(protocol.after));
+    return keys;
+}
+
+// Every text of the program's own, and those that phases and pages name besides.
 Texts parseTexts(TomlTable table, std::set<std::string> named) {
     Texts texts;
     for (const TextKey& key : textKeys()) {
@@ -314,8 +321,10 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
                                           questionsOf(phasesOf(protocol.trial)));
-    protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"),
-                                textsOf(phasesOf(protocol.trial)));
+    protocol.before = parsePages(root, "before");
+    protocol.after = parsePages(root, "after");
+    protocol.texts =
+        parseTexts(root.requiredTable("texts", "what participants read"), textsOf(protocol));
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();
@@ -344,6 +353,7 @@ std::span<const TextKey> textKeys() {
         {"leaveNote", &Texts::leaveNote},
         {"stay", &Texts::stay},
         {"end", &Texts::end},
+        {"declined", &Texts::declined},
         {"rest", &Texts::rest},
         {"id", &Texts::id},
         {"idNote", &Texts::idNote},

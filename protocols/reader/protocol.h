@@ -56,6 +56,7 @@ struct Texts {
     std::string unfocused = "The keyboard is elsewhere: click here to go on";
     std::string leave = "End the session?", leaveNote = "Answers given so far are kept.";
     std::string stay = "Continue", end = "End";
+    std::string declined = "The session ends here. Thank you for your time!";
     std::string rest = "Take a break. Press the space bar to go on.";
     std::string id = "Type the participant's pseudonym and press Enter.";
     std::string idNote = "Letters and digits. Escape ends the program.";
@@ -101,6 +102,7 @@ struct Protocol {
     std::vector<TechniqueSetting> techniques;
     std::vector<Condition> conditions;
     Trial trial;
+    std::vector<Phase> before, after; // pages around the trials, each shown once
     Ordering ordering;
     Texts texts;
     Simulation simulation;

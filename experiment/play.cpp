@@ -1,0 +1,42 @@
+#include "experiment/play.h"
+
+#include "experiment/signals.h"
+
+namespace obscura {
+
+// A picture is shown, then all that arrived while
+// it was on its way is handled, and only then does the machine learn that it came on: so a key
+// pressed before it cannot be taken for an answer to it. A picture that only replaces one of the
+// same screen has been on: what arrives meanwhile is an answer to it, and may lead to the next.
+bool play(TrialMachine& machine, Observer& observer, const std::function<void()>& journal) {
+    for (;;) {
+        throwIfEnded();
+        switch (machine.next()) {
+        case TrialMachine::Next::journal:
+            journal();
+            machine.journalled();
+            break;
+        case TrialMachine::Next::present: {
+            const bool anew = machine.isOn();
+            const double time = observer.show(machine);
+            if (anew)
+                machine.shown(time);
+            for (const Event& event : observer.events(false))
+                machine.handle(event);
+            if (!anew)
+                machine.shown(time);
+            break;
+        }
+        case TrialMachine::Next::wait:
+            for (const Event& event : observer.events(true))
+                machine.handle(event);
+            break;
+        case TrialMachine::Next::finished:
+            return true;
+        case TrialMachine::Next::left:
+            return false;
+        }
+    }
+}
+
+} // namespace obscura
