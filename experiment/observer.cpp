@@ -72,10 +72,10 @@ std::vector<Event> SimulatedObserver::events(bool wait) {
     if (const Form* form = trial_->form())
         return answer(*form);
     const Phase& phase = page_ ? *page_ : phases_[static_cast<std::size_t>(trial_->screen())];
+    const auto go = static_cast<gl::Key>(protocol_.keys.go.front());
     if (phase.images.empty())
-        return press(gl::Key::space, draw(protocol_.simulation.decision));
-    return press(gl::Key::space,
-                 std::max(phase.atLeast + quickest, draw(protocol_.simulation.view)));
+        return press(go, draw(protocol_.simulation.decision));
+    return press(go, std::max(phase.atLeast + quickest, draw(protocol_.simulation.view)));
 }
 
 // Which image of a pair looks better is the model's; all other questions are answered at random,
@@ -85,13 +85,16 @@ std::vector<Event> SimulatedObserver::answer(const Form& form) {
     if (form.answered(static_cast<std::size_t>(form.focus())))
         return press(gl::Key::enter, after); // to the next, or the end
     const Question& question = form.questions()[static_cast<std::size_t>(form.focus())];
-    const auto digit = [](int number) {
+    const auto digit = [&](int number) {
+        const Keys& keys = protocol_.keys;
+        if (isOfTwo(question) && number <= 2)
+            return static_cast<gl::Key>((number == 1 ? keys.first : keys.second).front());
         return static_cast<gl::Key>(static_cast<int>(gl::Key::zero) + number % 10);
     };
     switch (question.kind) {
     case Question::Kind::choice:
         if (question.images && question.options.size() == 2 && question.unsure.empty())
-            return press(random_.uniform() < chooseSecond_ ? gl::Key::two : gl::Key::one, after);
+            return press(digit(random_.uniform() < chooseSecond_ ? 2 : 1), after);
         [[fallthrough]];
     case Question::Kind::scale:
         if (!question.endsUnless.empty())

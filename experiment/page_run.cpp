@@ -37,7 +37,7 @@ PagesEnd runPages(const Context& context, std::string_view kind, Observer& obser
     std::vector<std::pair<std::string, TrialLines>> held;
     for (std::size_t i = 0; i < pages.size(); ++i) {
         const Phase& page = pages[i];
-        TrialMachine machine({page}, 0, context.refresh.hz);
+        TrialMachine machine({page}, 0, context.refresh.hz, protocol.keys);
         observer.preparePage(page);
         if (!play(machine, observer, [] {}))
             return {};

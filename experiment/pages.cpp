@@ -59,13 +59,19 @@ std::string wordsOf(const Texts& texts, const std::string& key) {
     return key.empty() ? "" : texts.at(key);
 }
 
+std::string capOf(const Form& form, const Question& question, int option) {
+    if (isOfTwo(question) && option <= 2)
+        return obscura::capOf(option == 1 ? form.keys().first.front() : form.keys().second.front());
+    return fmt::format("{}", option % 10);
+}
+
 // A key for each option, from 1; a scale's are those of its numbers where digits can say them.
 std::vector<Page::Option> optionsOf(const Texts& texts, const Form& form, std::size_t index) {
     const Question& question = form.questions()[index];
     const Form::Entry& entry = form.entries()[index];
     std::vector<Page::Option> options;
     for (int i = 1; i <= form.optionsOf(question); ++i) {
-        Page::Option option{fmt::format("{}", i % 10), "", entry.option == i};
+        Page::Option option{capOf(form, question, i), "", entry.option == i};
         const auto rank = std::find(entry.ranks.begin(), entry.ranks.end(), i);
         if (question.kind == Question::Kind::rank) {
             option.chosen = rank != entry.ranks.end();

@@ -59,7 +59,7 @@ Presenter::Presenter(Display& display, const Study& study, std::string warning)
     loadImages();
     for (std::size_t i = 0; i < phases_.size(); ++i)
         if (!phases_[i].questions.empty()) {
-            prepared_[i].sheet = formSheet(Form(phases_[i].questions, places()), phases_[i]);
+            prepared_[i].sheet = formSheet(formOf(phases_[i]), phases_[i]);
             display_.warmUp(prepared_[i].sheet->picture);
         } else if (!phases_[i].text.empty() && !phases_[i].progress) {
             prepared_[i].sheet = sheet(textPage(texts_, phases_[i], 1, 1), "");
@@ -86,8 +86,7 @@ void Presenter::checkFits() const {
         pages.push_back(declinedPage(texts_));
     for (const Phase& phase : phases_)
         if (!phase.questions.empty())
-            pages.push_back(
-                formPage(texts_, Form(phase.questions, places()), room(phase), phase.text));
+            pages.push_back(formPage(texts_, formOf(phase), room(phase), phase.text));
         else if (!phase.text.empty())
             pages.push_back(textPage(texts_, phase, pairs, pairs));
         else if (!phase.images.empty())
@@ -269,6 +268,7 @@ std::vector<Event> Presenter::events(bool wait) {
         case Kind::text:
             events.push_back({Event::Kind::text, input.time, {}, 0, 0, input.symbol});
             break;
+        case Kind::drag:
         case Kind::focusGained:
         case Kind::exposed:
             break;
@@ -314,7 +314,8 @@ bool Presenter::read(const Sheet& page) {
     turnTo(page);
     for (;;)
         for (const Event& event : answers()) {
-            if (event.key == gl::Key::space || event.kind == Event::Kind::option)
+            if (study_.protocol.keys.isGo(static_cast<int>(event.key)) ||
+                event.kind == Event::Kind::option)
                 return true;
             if (event.key == gl::Key::escape) {
                 if (leaves())
@@ -373,9 +374,8 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
 
 // Outside trials, before anything is answered.
 Page Presenter::pageOf(const Phase& page) const {
-    return page.questions.empty()
-               ? textPage(texts_, page, 0, 0)
-               : formPage(texts_, Form(page.questions, 0), room(page), page.text);
+    return page.questions.empty() ? textPage(texts_, page, 0, 0)
+                                  : formPage(texts_, formOf(page), room(page), page.text);
 }
 
 void Presenter::preparePage(const Phase& page) {

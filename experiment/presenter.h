@@ -77,6 +77,9 @@ class Presenter : public Observer {
     std::vector<Placed> placed(const Phase& phase) const;
     Sheet formSheet(const Form& form, const Phase& phase) const;
     Page::Pictures room(const Phase& phase) const;
+    Form formOf(const Phase& phase) const {
+        return {phase.questions, places(), study_.protocol.keys};
+    }
     int places() const { return static_cast<int>(study_.protocol.trial.order.size()); }
     void announce();
     std::vector<gl::Input> inputs();

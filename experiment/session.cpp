@@ -69,7 +69,8 @@ bool playAll(const Context& context, Observer& observer, Recorder& recorder,
         }
         const Upcoming trial{index++, count, *planned,
                              placed(protocol.trial.order, planned->roles)};
-        TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz);
+        TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz,
+                             protocol.keys);
         observer.prepare(trial);
         const auto journal = [&] {
             recorder.trialStarted(trial.index,

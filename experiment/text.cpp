@@ -53,7 +53,7 @@ PlacedPage place(Setter& setter, const Page& page, double top) {
         setter.field(*page.field);
     }
     for (const Page::Part& part : page.parts) {
-        setter.gap(&part == &page.parts.front() ? 0 : 1);
+        setter.gap(&part == &page.parts.front() && page.text.empty() ? 0 : 1);
         placePart(setter, part, placed.options);
     }
     if (!page.note.empty()) {

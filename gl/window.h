@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/context.h"
+#include "gl/gamepad.h"
 #include "gl/input.h"
 #include "gl/picture.h"
 
@@ -86,7 +87,8 @@ class Window {
 
     // What has arrived, without waiting or allocating; valid until the next call.
     const std::vector<Input>& poll();
-    // The same, but sleeps until something arrives.
+    // The same, but sleeps until something arrives; where there is a gamepad, which has no events,
+    // for a millisecond at a time.
     const std::vector<Input>& wait();
     void showCursor(bool visible);
     bool focused() const; // whether the keyboard is ours
@@ -108,6 +110,7 @@ class Window {
     void open(const WindowOptions& options);
     void listen();
     Input stamped(Input::Kind kind) const;
+    Input stampedAtCursor(Input::Kind kind) const;
     const std::vector<Input>& take();
     Onset awaitOnset() const;
 
@@ -117,6 +120,7 @@ class Window {
     std::unique_ptr<GLFWwindow, Destroy> window_;
     int width_ = 0, height_ = 0;
     std::vector<Input> inputs_, taken_;
+    Gamepads gamepads_;
     void (*interrupt_)();
     Stamp stamp_ = Stamp::finish;
 };

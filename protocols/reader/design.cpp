@@ -203,14 +203,32 @@ void split(const std::vector<T>& items, const std::set<std::string>& used, const
         (used.contains(item.name) ? ifUsed : otherwise)[key][item.name] = toJson(item);
 }
 
+json toJson(const ScreenNeeds& needs) {
+    const auto& [distanceCm, degrees, pixelsPerDegree] = needs;
+    json result = {{"distanceCm", distanceCm}};
+    if (degrees)
+        result["degrees"] = *degrees;
+    if (pixelsPerDegree)
+        result["pixelsPerDegree"] = {{"min", (*pixelsPerDegree)[0]},
+                                     {"max", (*pixelsPerDegree)[1]}};
+    return result;
+}
+
+std::vector<std::string> spelt(const std::vector<int>& keys) {
+    std::vector<std::string> names;
+    for (const int key : keys)
+        names.emplace_back(nameOfKey(key));
+    return names;
+}
+
 struct Parts {
     json stimuli, procedure, texts;
 };
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, trial, before, after, ordering, words, simulation, path, sha256] =
-        protocol;
+                 conditions, trial, before, after, keys, screen, ordering, words, simulation, path,
+                 sha256] = protocol;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -223,6 +241,11 @@ Parts split(const Protocol& protocol) {
     result.procedure = {{"trial", toJson(trial)},
                         {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};
+    if (screen.distanceCm > 0)
+        result.procedure["screen"] = toJson(screen);
+    if (!(keys == Keys())) // which hand does what
+        result.procedure["keys"] = {
+            {"first", spelt(keys.first)}, {"second", spelt(keys.second)}, {"go", spelt(keys.go)}};
     // Who takes part, and what they have been asked before: studies that ask nothing keep theirs.
     if (!before.empty())
         result.procedure["before"] = toJson(before);

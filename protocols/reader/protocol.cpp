@@ -273,6 +273,17 @@ Texts parseTexts(TomlTable table, std::set<std::string> named) {
     return texts;
 }
 
+// Where another key than Space goes on, the texts that the study has not written name it.
+void nameGo(const Keys& keys, Texts& texts) {
+    if (keys.go.front() == Keys().go.front())
+        return;
+    const std::string cap = capOf(keys.go.front());
+    if (!texts.places.contains("space"))
+        texts.space = cap;
+    if (!texts.places.contains("rest"))
+        texts.rest = fmt::format("Take a break. Press {} to go on.", texts.space);
+}
+
 ExGaussian parseTime(std::optional<TomlTable> table, ExGaussian fallback) {
     if (!table)
         return fallback;
@@ -321,10 +332,15 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
                                           questionsOf(phasesOf(protocol.trial)));
+    if (auto screen = root.table("screen"))
+        protocol.screen = parseScreenNeeds(std::move(*screen));
+    if (auto keys = root.table("keys"))
+        protocol.keys = parseKeys(std::move(*keys));
     protocol.before = parsePages(root, "before");
     protocol.after = parsePages(root, "after");
     protocol.texts =
         parseTexts(root.requiredTable("texts", "what participants read"), textsOf(protocol));
+    nameGo(protocol.keys, protocol.texts);
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();

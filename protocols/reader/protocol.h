@@ -1,6 +1,8 @@
 #pragma once
 
+#include "protocols/reader/keys.h"
 #include "protocols/reader/ordering.h"
+#include "protocols/reader/screen.h"
 #include "protocols/reader/study.h"
 #include "protocols/reader/trial.h"
 
@@ -103,6 +105,8 @@ struct Protocol {
     std::vector<Condition> conditions;
     Trial trial;
     std::vector<Phase> before, after; // pages around the trials, each shown once
+    Keys keys;
+    ScreenNeeds screen;
     Ordering ordering;
     Texts texts;
     Simulation simulation;

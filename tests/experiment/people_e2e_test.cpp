@@ -76,5 +76,33 @@ TEST_F(PeopleTest, WhoConsentsGoesOnToTheInstructions) {
     EXPECT_EQ(answers[1].at("value"), "18");
 }
 
+constexpr const char* keys = R"(
+[keys]
+first = ["f"]
+second = ["j"]
+go = ["g"]
+)";
+
+TEST_F(PeopleTest, TheStudysKeysRunATrial) {
+    openWith(keys);
+    test::Desktop desktop(width, height);
+    Program program(desktop.name(), arguments({"--participant", "P01"}), output);
+    const auto presses = [&](const std::string& title, unsigned long other, unsigned long key) {
+        await(desktop, program, title);
+        desktop.tap(other); // which must do nothing, or the next title is not waited for in vain
+        desktop.tap(key);
+    };
+    presses("instructions", XK_space, XK_g);
+    presses("pair 1 of 7, start", XK_space, XK_g);
+    presses("pair 1 of 7, first image", XK_space, XK_g);
+    presses("pair 1 of 7, second image", XK_space, XK_g);
+    presses("pair 1 of 7, question", XK_1, XK_j);
+    await(desktop, program, "pair 2 of 7, start");
+    program.kill();
+    const std::vector<Row> answers = test::rowsOf(dataFolder().answers({"P01", 1, false}));
+    ASSERT_EQ(answers.size(), 1u);
+    EXPECT_EQ(answers[0].at("value"), "2");
+}
+
 } // namespace
 } // namespace obscura

@@ -215,6 +215,26 @@ TEST(Pages, ThatCannotBeAreRefused) {
                 HasSubstr("only in questions of [[before]]"));
 }
 
+TEST(Screen, SaysFromWhereAndHowLarge) {
+    const Protocol protocol = parsed("[screen]\ndistanceCm = 60\ndegrees = [20, 11]\n"
+                                     "pixelsPerDegree = { min = 40 }\n");
+    EXPECT_EQ(protocol.screen.distanceCm, 60);
+    EXPECT_EQ((*protocol.screen.degrees)[1], 11);
+    EXPECT_EQ((*protocol.screen.pixelsPerDegree)[0], 40);
+    EXPECT_NE(designOf(protocol), designOf(parsed("[screen]\ndistanceCm = 61\n")));
+    EXPECT_EQ(designOf(parsed("")).find("screen"), std::string::npos);
+}
+
+TEST(Screen, ThatCannotBeIsRefused) {
+    EXPECT_THAT(errorOf("[screen]\ndegrees = [20, 11]\n"), HasSubstr("screen.distanceCm"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = 0\n"), HasSubstr("screen.distanceCm"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = nan\n"), HasSubstr("screen.distanceCm"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = 60\ndegrees = [20]\n"),
+                HasSubstr("found 1 numbers"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = 60\npixelsPerDegree = { min = 9, max = 8 }\n"),
+                HasSubstr("pixelsPerDegree.max"));
+}
+
 TEST(Roles, MayBeAnyNumberAndAreSortedByName) {
     const Protocol protocol =
         parsed("[trial]\norder = [\"c\"]\n[[trial.phases]]\nname = \"look\"\nimage = 1\n"
