@@ -29,14 +29,20 @@ std::size_t endingIn(const Phase& page, const std::vector<Answer>& answers) {
 
 } // namespace
 
-PagesEnd runPages(const Context& context, std::string_view kind, Observer& observer,
-                  Recorder& recorder) {
+std::string pageKey(std::string_view kind, const std::string& page) {
+    return std::string(kind) + "/" + page;
+}
+
+PagesEnd runPages(const Context& context, std::string_view kind, const std::set<std::string>& done,
+                  Observer& observer, Recorder& recorder) {
     const Protocol& protocol = context.study.protocol;
     const std::vector<Phase>& pages = kind == "before" ? protocol.before : protocol.after;
     const std::size_t gate = gated(pages);
     std::vector<std::pair<std::string, TrialLines>> held;
     for (std::size_t i = 0; i < pages.size(); ++i) {
         const Phase& page = pages[i];
+        if (done.contains(pageKey(kind, page.name)))
+            continue;
         TrialMachine machine({page}, 0, context.refresh.hz, protocol.keys);
         observer.preparePage(page);
         if (!play(machine, observer, [] {}))

@@ -4,6 +4,7 @@
 #include "experiment/recorder.h"
 #include "experiment/row.h"
 
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -18,8 +19,14 @@ struct PagesEnd {
 // Shows the pages `kind`, "before" or "after" the trials, each once, and records each when it is
 // ended. Until the last question that can end the session has been answered nothing is recorded,
 // and when it is ended nothing but the answer that did it: without consent there are no data. The
-// person is then told so.
-PagesEnd runPages(const Context& context, std::string_view kind, Observer& observer,
-                  Recorder& recorder);
+// person is then told so. `done`: pages, by their keys, that were ended before the session broke
+// off.
+PagesEnd runPages(const Context& context, std::string_view kind, const std::set<std::string>& done,
+                  Observer& observer, Recorder& recorder);
+
+std::string pageKey(std::string_view kind, const std::string& page); // "before/consent"
+
+// With which the reason of a session begins that is not to be gone on with.
+constexpr std::string_view endedByAnswer = "ended by the answer to ";
 
 } // namespace obscura

@@ -78,6 +78,7 @@ void Presenter::checkFits() const {
                                instructionsPage(texts_),
                                restPage(texts_),
                                leavePage(texts_),
+                               resumePage(texts_, pairs, pairs),
                                thanksPage(texts_)};
     for (const auto* around : {&study_.protocol.before, &study_.protocol.after})
         for (const Phase& page : *around)
@@ -325,14 +326,17 @@ bool Presenter::read(const Sheet& page) {
         }
 }
 
-bool Presenter::leaves() {
-    turnTo(leave_);
+bool Presenter::leaves() { return choose(leave_) == 2; }
+
+// Which of the page's two options was chosen, 1 or 2; 0 for Escape.
+int Presenter::choose(const Sheet& page) {
+    turnTo(page);
     for (;;)
         for (const Event& event : answers()) {
             const int option =
                 event.kind == Event::Kind::option ? event.option : optionOf(event.key);
             if (option != 0 || event.key == gl::Key::escape)
-                return option == 2;
+                return option;
         }
 }
 
@@ -347,7 +351,7 @@ void Presenter::dismiss(Page page, std::string title) {
 }
 
 std::optional<std::string>
-Presenter::askId(const std::function<std::string(const std::string&)>& objection) {
+Presenter::askId(const std::function<IdVerdict(const std::string&)>& judge) {
     std::string typed, problem;
     Sheet page = sheet(idPage(texts_, typed, problem), idTitle);
     turnTo(page);
@@ -358,9 +362,16 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
             if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
                 return std::nullopt;
             if (press && input.key == gl::Key::enter) {
-                if (objection(typed).empty())
+                const IdVerdict verdict = judge(typed);
+                const bool confirmed = verdict.broken && goesOn(*verdict.broken);
+                if (confirmed || (verdict.accepted && !verdict.broken))
                     return typed;
                 problem = isParticipantId(typed) ? texts_.idTaken : texts_.idMalformed;
+                if (verdict.broken) {
+                    typed.clear();
+                    problem.clear();
+                    turnTo(page);
+                }
             }
             if (edit(typed, input))
                 problem.clear();
@@ -382,6 +393,10 @@ void Presenter::preparePage(const Phase& page) {
     page_ = &page;
     drawn_ = {};
     preparedPage_ = {sheet(pageOf(page), page.name), {}, page.name};
+}
+
+bool Presenter::goesOn(int trials) {
+    return choose(sheet(resumePage(texts_, trials, longest(study_.protocol)), "go on?")) == 1;
 }
 
 void Presenter::prepare(const Upcoming& trial) {

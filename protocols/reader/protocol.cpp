@@ -375,6 +375,8 @@ std::span<const TextKey> textKeys() {
         {"idNote", &Texts::idNote},
         {"idMalformed", &Texts::idMalformed},
         {"idTaken", &Texts::idTaken},
+        {"resume", &Texts::resume},
+        {"otherId", &Texts::otherId},
     };
     return keys;
 }

@@ -65,6 +65,8 @@ struct Texts {
     std::string idMalformed = "A pseudonym is 1 to 32 letters (a-z) and digits.";
     std::string idTaken = "There are data of this participant and session. Type another "
                           "pseudonym, or press Escape and start with another --session.";
+    std::string resume = "This session broke off after {pair} of {pairs}. Go on from there?";
+    std::string otherId = "Another pseudonym";
 
     std::map<std::string, std::string, std::less<>> own; // texts that the trial's phases name, and
                                                          // that are none of the above
