@@ -28,8 +28,13 @@ Page loadingPage(const Texts& texts, int loaded, int images) {
     return page;
 }
 
-Page idPage(const Texts& texts, const std::string& typed, const std::string& objection) {
+Page idPage(const Texts& texts, const std::string& typed, const std::string& objection,
+            const StartFacts& start) {
     Page page;
+    page.heading = start.title;
+    page.facts = start.facts;
+    if (start.monitors)
+        page.options = {{texts.enter, ""}, {"Tab", "Next monitor"}};
     page.text = texts.id;
     page.field = Page::Field{typed};
     page.note = objection.empty() ? texts.idNote : objection;

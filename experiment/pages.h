@@ -8,11 +8,20 @@
 
 namespace obscura {
 
+// What an experimenter wants to know before a session begins.
+struct StartFacts {
+    std::string title; // of the study
+    std::vector<Page::Fact> facts;
+    bool monitors = false; // there are several, and Tab goes to the next
+};
+
 // What participants and experimenters read, page by page. Every word comes from the study's
 // protocol, or is its English default, so that all can be in the participant's language.
 
 Page loadingPage(const Texts& texts, int loaded, int images);
-Page idPage(const Texts& texts, const std::string& typed, const std::string& objection);
+// For the experimenter, before the participant sits down: how things stand, and who takes part.
+Page idPage(const Texts& texts, const std::string& typed, const std::string& objection,
+            const StartFacts& start = {});
 // Whether a session that broke off after `trial` of `trials` is to go on.
 Page resumePage(const Texts& texts, int trial, int trials);
 Page instructionsPage(const Texts& texts);

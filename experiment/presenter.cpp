@@ -15,7 +15,6 @@ namespace obscura {
 namespace {
 
 constexpr double progressInterval = 0.1; // seconds
-constexpr const char* idTitle = "who takes part?";
 
 int imageCount(const Study& study) {
     int count = 0;
@@ -26,19 +25,6 @@ int imageCount(const Study& study) {
 
 gl::Picture upload(const Image8& image) {
     return {image.width, image.height, image.channels, image.pixels};
-}
-
-// Types or deletes one character; false for all other input.
-bool edit(std::string& text, const gl::Input& input) {
-    const bool typed =
-        input.kind == gl::Input::Kind::text && input.symbol > 32 && input.symbol < 127;
-    const bool deleted =
-        input.kind == gl::Input::Kind::press && input.key == gl::Key::backspace && !text.empty();
-    if (typed)
-        text += static_cast<char>(input.symbol);
-    if (deleted)
-        text.pop_back();
-    return typed || deleted;
 }
 
 } // namespace
@@ -350,39 +336,6 @@ void Presenter::dismiss(Page page, std::string title) {
     answers();
 }
 
-std::optional<std::string>
-Presenter::askId(const std::function<IdVerdict(const std::string&)>& judge) {
-    std::string typed, problem;
-    Sheet page = sheet(idPage(texts_, typed, problem), idTitle);
-    turnTo(page);
-    for (;;) {
-        const auto before = std::pair(typed, problem);
-        for (const gl::Input& input : inputs()) {
-            const bool press = input.kind == gl::Input::Kind::press;
-            if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
-                return std::nullopt;
-            if (press && input.key == gl::Key::enter) {
-                const IdVerdict verdict = judge(typed);
-                const bool confirmed = verdict.broken && goesOn(*verdict.broken);
-                if (confirmed || (verdict.accepted && !verdict.broken))
-                    return typed;
-                problem = isParticipantId(typed) ? texts_.idTaken : texts_.idMalformed;
-                if (verdict.broken) {
-                    typed.clear();
-                    problem.clear();
-                    turnTo(page);
-                }
-            }
-            if (edit(typed, input))
-                problem.clear();
-        }
-        if (before != std::pair(typed, problem)) {
-            page = sheet(idPage(texts_, typed, problem), idTitle);
-            showSheet(page);
-        }
-    }
-}
-
 // Outside trials, before anything is answered.
 Page Presenter::pageOf(const Phase& page) const {
     return page.questions.empty() ? textPage(texts_, page, 0, 0)
@@ -393,10 +346,6 @@ void Presenter::preparePage(const Phase& page) {
     page_ = &page;
     drawn_ = {};
     preparedPage_ = {sheet(pageOf(page), page.name), {}, page.name};
-}
-
-bool Presenter::goesOn(int trials) {
-    return choose(sheet(resumePage(texts_, trials, longest(study_.protocol)), "go on?")) == 1;
 }
 
 void Presenter::prepare(const Upcoming& trial) {

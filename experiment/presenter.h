@@ -4,6 +4,7 @@
 #include "experiment/observer.h"
 #include "experiment/pages.h"
 #include "experiment/text.h"
+#include "experiment/viewing.h"
 
 #include <functional>
 #include <map>
@@ -40,10 +41,19 @@ class Presenter : public Observer {
 
     // Asks for the participant's id until `judge` has no objection, and, of a session that broke
     // off, until the experimenter confirms that it goes on; nothing when Escape was pressed.
-    std::optional<std::string> askId(const std::function<IdVerdict(const std::string&)>& judge);
+    struct Start {
+        std::optional<std::string> id;
+        bool otherMonitor = false; // Tab was pressed: nothing begins on this one
+    };
+    Start askId(const StartFacts& start, const std::function<IdVerdict(const std::string&)>& judge);
+    // What session files say of how the images are seen.
+    void seenAs(Viewing viewing) { viewing_ = std::move(viewing); }
 
     Refresh refresh() const override { return display_.refresh(); }
-    void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
+    void describe(nlohmann::ordered_json& sidecar) const override {
+        display_.describe(sidecar);
+        obscura::describe(viewing_, sidecar);
+    }
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
     void preparePage(const Phase& page) override;
@@ -98,11 +108,14 @@ class Presenter : public Observer {
     Page pageOf(const Phase& phase) const;
     int choose(const Sheet& page);
     bool goesOn(int trials);
+    Sheet startSheet(const StartFacts& start, const std::string& typed,
+                     const std::string& problem) const;
 
     Display& display_;
     const Study& study_;
     const Texts& texts_;
     std::string warning_;
+    Viewing viewing_;
     std::vector<Phase> phases_;
     std::vector<std::map<std::string, gl::Picture>> pictures_; // by condition and role
     Sheet leave_;

@@ -47,6 +47,8 @@ PlacedPage place(Setter& setter, const Page& page, double top) {
     }
     setter.title(page.heading, 1.5, true);
     setter.gap(page.heading.empty() ? 0 : 0.9);
+    setter.facts(page.facts);
+    setter.gap(page.facts.empty() ? 0 : 0.9);
     setter.paragraph(page.text, 1);
     if (page.field) {
         setter.gap(1);

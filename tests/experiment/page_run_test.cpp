@@ -1,6 +1,8 @@
 #include "base/files.h"
+#include "experiment/broken_session.h"
 #include "experiment/recorder.h"
 #include "experiment/session.h"
+#include "tests/error_of.h"
 #include "tests/experiment/shipped_studies.h"
 #include "tests/experiment/tiny_study.h"
 
@@ -42,6 +44,7 @@ class Visitor : public SimulatedObserver {
 
     void preparePage(const Phase& page) override {
         SimulatedObserver::preparePage(page);
+        seen.push_back(page.name);
         page_ = page.name;
         next_ = 0;
     }
@@ -63,6 +66,7 @@ class Visitor : public SimulatedObserver {
     void decline() override { declined = true; }
 
     bool declined = false;
+    std::vector<std::string> seen;
 
   private:
     std::map<std::string, std::vector<gl::Key>> keys_;
@@ -142,6 +146,25 @@ TEST_F(PageRunTest, WhoLeavesAfterTheTrialsHasCompletedThem) {
     ASSERT_TRUE(run(visitor));
     EXPECT_EQ(answers().size(), 3u + 7u);
     EXPECT_EQ(Ledger(data.ledger()).records().at(0).state, SlotState::completed);
+}
+
+TEST_F(PageRunTest, WhoGoesOnIsNotAskedAgain) {
+    using Key = gl::Key;
+    Visitor first(study.protocol, {{"welcome", {Key::escape, Key::two}}});
+    ASSERT_FALSE(run(first));
+    Visitor second(study.protocol, {});
+    ASSERT_TRUE(resumeSession(study, data, brokenSession(study, data, session), second));
+    EXPECT_THAT(second.seen, testing::ElementsAre("welcome", "mood"));
+    EXPECT_EQ(answers().size(), 3u + 7u + 1u);
+}
+
+TEST_F(PageRunTest, WhoDidNotConsentDoesNotGoOn) {
+    using Key = gl::Key;
+    Visitor visitor(study.protocol, {{"agreement", {Key::two, Key::down, Key::one, Key::enter}}});
+    study.protocol.before[1].questions[1].optional = true;
+    ASSERT_FALSE(run(visitor));
+    EXPECT_THAT(test::errorOf([&] { brokenSession(study, data, session); }),
+                HasSubstr("it was ended by the answer to \"consent\""));
 }
 
 // A crash between journal and tables: at whatever byte they end.

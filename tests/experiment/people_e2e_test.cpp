@@ -8,6 +8,9 @@
 
 #include <X11/keysym.h>
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <filesystem>
 
 namespace obscura {
 namespace {
@@ -102,6 +105,78 @@ TEST_F(PeopleTest, TheStudysKeysRunATrial) {
     const std::vector<Row> answers = test::rowsOf(dataFolder().answers({"P01", 1, false}));
     ASSERT_EQ(answers.size(), 1u);
     EXPECT_EQ(answers[0].at("value"), "2");
+}
+
+// 324 pixels, as at 96 to an inch, are where it begins.
+TEST_F(PeopleTest, ACardHeldToTheScreenMeasuresIt) {
+    open({});
+    test::Desktop desktop(1280, 720);
+    Program card(desktop.name(), {"card", "--data", data.string()}, output);
+    await(desktop, card, "card, 323 pixels wide");
+    desktop.tap(XK_Up);
+    desktop.tap(XK_Right);
+    desktop.tap(XK_Right);
+    await(desktop, card, "card, 335 pixels wide");
+    desktop.tap(XK_Down);
+    desktop.tap(XK_Left);
+    await(desktop, card, "card, 324 pixels wide");
+    const Image8 screen = desktop.look(); // is the rectangle what the title says, and a card?
+    int across = 0, down = 0;
+    for (int x = 0; x < 1280; ++x)
+        across += screen.pixels[static_cast<std::size_t>((120 * 1280 + x) * 3)] == 230;
+    for (int y = 0; y < 480; ++y)
+        down += screen.pixels[static_cast<std::size_t>((y * 1280 + 500) * 3)] == 230;
+    EXPECT_EQ(across, 324 - 4);
+    EXPECT_NEAR(down + 4, 324 * 53.98 / 85.60, 0.5);
+    desktop.tap(XK_Return);
+    EXPECT_EQ(card.wait(), 0);
+    EXPECT_THAT(card.output(), HasSubstr("3.7850 pixels per mm"));
+
+    openWith("\n[screen]\ndistanceCm = 60\npixelsPerDegree = { min = 39, max = 40 }\n");
+    Program program(desktop.name(), arguments({"--participant", "P01"}), output);
+    await(desktop, program, "instructions");
+    program.kill();
+    const auto sidecar =
+        nlohmann::json::parse(readFile(dataFolder().sidecar({"P01", 1, false})))["viewing"];
+    EXPECT_NEAR(sidecar["pixels_per_degree"], 39.6384,
+                1e-3); // 2 * 600 * 3.78505 * tan(0.5 degrees)
+    EXPECT_THAT(std::string(sidecar["size_source"]), HasSubstr("card on 20"));
+}
+
+TEST_F(PeopleTest, AStudyThatWantsAnAngleIsRefusedWithoutIt) {
+    openWith("\n[screen]\ndistanceCm = 60\ndegrees = [8, 4.5]\n");
+    test::Desktop desktop(width, height);
+    const auto said = [&](std::vector<std::string> more) {
+        more.insert(more.end(), {"--participant", "P01"});
+        Program program(desktop.name(), arguments(more), output);
+        EXPECT_EQ(program.wait(), 1);
+        return program.output();
+    };
+    EXPECT_THAT(said({}), HasSubstr("the size of this screen is not known"));
+    EXPECT_THAT(
+        said({"--screen-mm", "320x200"}),
+        HasSubstr("expected images 8 degrees wide, found 15.19 at 60 cm; at 114.4 cm they"));
+    EXPECT_THAT(said({"--screen-mm", "32"}), HasSubstr("--screen-mm: expected"));
+    EXPECT_FALSE(std::filesystem::exists(data)) << "no slot was claimed";
+    Program rehearsal(desktop.name(), arguments({"--participant", "P01", "--rehearse"}), output);
+    await(desktop, rehearsal, "instructions");
+    EXPECT_THAT(rehearsal.output(), HasSubstr("no session but a rehearsal"));
+}
+
+TEST_F(PeopleTest, TheStartScreenKnowsHowFarTheStudyIs) {
+    open({});
+    test::Desktop desktop(1280, 720);
+    Program program(desktop.name(), arguments(), output);
+    await(desktop, program, "who takes part?");
+    desktop.type("a-b");
+    desktop.tap(XK_Return);
+    await(desktop, program, "who takes part? a-b - " + study.protocol.texts.idMalformed);
+    desktop.tap(XK_BackSpace);
+    desktop.tap(XK_BackSpace);
+    await(desktop, program, "who takes part? a");
+    desktop.tap(XK_Tab); // there is no other monitor
+    desktop.tap(XK_Return);
+    await(desktop, program, "instructions");
 }
 
 } // namespace

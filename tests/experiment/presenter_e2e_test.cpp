@@ -97,7 +97,9 @@ class PresenterTest : public test::PresentedStudy {
     }
     void seesId(test::Desktop& desktop, Program& program, const std::string& typed,
                 const std::string& objection = "") {
-        sees(desktop, program, "who takes part?", drawn(idPage(texts, typed, objection)).image);
+        const std::string title = "Obscura: who takes part?" + (typed.empty() ? "" : " " + typed) +
+                                  (objection.empty() ? "" : " - " + objection);
+        program.await(title, [&] { return desktop.title() == title; });
     }
 
     // Steps of a session; each waits for the screen it expects.

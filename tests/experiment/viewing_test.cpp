@@ -1,6 +1,13 @@
+#include "base/files.h"
+#include "experiment/screen_file.h"
+#include "experiment/session.h"
+#include "experiment/start_facts.h"
 #include "experiment/viewing.h"
 #include "tests/error_of.h"
+#include "tests/experiment/shipped_studies.h"
+#include "tests/experiment/tiny_study.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -58,6 +65,58 @@ TEST(Viewing, ASizeInMillimetresMustFitThePixels) {
             << wrong;
     EXPECT_THAT(test::errorOf([] { screenSizeOf("270x480", 1920, 1080); }),
                 HasSubstr("expected square pixels"));
+}
+
+class ScreenFileTest : public testing::Test {
+  protected:
+    test::TemporaryFolder folder;
+    gl::Monitor monitor{"DP-1 / left", 1920, 1080, 60, 510, 290, 0, 0};
+    std::filesystem::path file = screenFile(folder.path(), monitor);
+};
+
+TEST_F(ScreenFileTest, AMeasurementHoldsForItsMode) {
+    EXPECT_FALSE(cardSize(folder.path(), monitor));
+    keepMeasured(file, monitor, "card", {{"pixels_per_mm", 3.7}});
+    keepMeasured(file, monitor, "luminance", {{"readings", {1, 2}}});
+    EXPECT_EQ(cardSize(folder.path(), monitor)->pixelsPerMm, 3.7);
+    EXPECT_EQ(file.filename().string().find('/'), std::string::npos);
+    monitor.width = 1280;
+    EXPECT_FALSE(cardSize(folder.path(), monitor)) << "another mode has other pixels";
+}
+
+TEST_F(ScreenFileTest, WhatIsNoMeasurementIsRefusedWithTheFile) {
+    keepMeasured(file, monitor, "card", {{"pixels_per_mm", 3.7}});
+    const std::string good = readFile(file);
+    const auto refusal = [&](const std::string& text) {
+        writeFile(file, text);
+        return test::errorOf([&] { cardSize(folder.path(), monitor); });
+    };
+    for (const char* wrong : {"", "{", "[]", "{}", "{\"format_version\": \"1\"}"})
+        EXPECT_THAT(refusal(wrong), HasSubstr(file.string() + ": expected measurements")) << wrong;
+    EXPECT_THAT(refusal("{\"format_version\": 2}"), HasSubstr("format_version 1 at most"));
+    EXPECT_THAT(refusal("{\"format_version\": 1, \"card\": 3}"), HasSubstr("\"mode\""));
+    for (const char* wrong : {"0", "-3.7", "1e9", "\"3.7\"", "null", "true"}) {
+        std::string text = good;
+        text.replace(text.find("3.7"), 3, wrong);
+        EXPECT_THAT(refusal(text), HasSubstr("card.pixels_per_mm")) << wrong;
+    }
+}
+
+// The simulated participants are the model itself.
+TEST(ExpectedTime, IsThatOfSimulatedParticipants) {
+    test::TemporaryFolder folder;
+    const test::TinyStudy tiny = test::writeTinyStudy(folder.path(), {.mask = 2});
+    const Study study = openStudy(tiny.protocol, tiny.stimuli);
+    const DataFolder data(folder.path() / "data", study.protocol);
+    double sum = 0;
+    for (int i = 1; i <= 12; ++i) {
+        const SessionId session{fmt::format("S{}", i), 1, true};
+        SimulatedObserver observer(study.protocol, 5, session.participant);
+        ASSERT_TRUE(runSession(study, data, session, observer));
+        for (const test::Row& row : test::rowsOf(data.phases(session)))
+            sum += std::stod(row.at("view_ms")) / 1000 / 12;
+    }
+    EXPECT_NEAR(expectedSeconds(study.protocol), sum, 0.06 * sum);
 }
 
 } // namespace
