@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "base/version.h"
 #include "experiment/broken_session.h"
+#include "experiment/calibrate.h"
 #include "experiment/card.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
@@ -15,11 +16,10 @@
 #include "experiment/session.h"
 #include "experiment/signals.h"
 #include "experiment/start_facts.h"
-#include "experiment/timing_report.h"
+#include "experiment/timing_command.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -70,7 +70,8 @@ CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
 
 void declareTools(CLI::App& app, Arguments& arguments) {
     for (const auto& [name, description] :
-         {std::pair("card", "Measure the size of a screen's pixels with a card held to it")}) {
+         {std::pair("card", "Measure the size of a screen's pixels with a card held to it"),
+          std::pair("calibrate", "Measure the curve of a screen by eye and with a photometer")}) {
         CLI::App* tool = app.add_subcommand(name, description);
         tool->add_option("--data", arguments.data, "The data folder, which keeps it")
             ->type_name("DIR")
@@ -308,7 +309,7 @@ std::optional<int> presentOn(const Arguments& arguments, const Study& study,
                     curtain(study));
     const Viewing viewing = viewingOn(arguments, study, display.monitor());
     Presenter presenter(display, study, warning(arguments, display));
-    presenter.seenAs(viewing);
+    presenter.seenAs(viewing, calibrationOf(arguments.data, display.monitor()));
     Presenter::Start start{arguments.participant};
     if (arguments.participant.empty())
         start =
@@ -351,38 +352,6 @@ int present(Arguments arguments, const Study& study) {
             return *status;
 }
 
-Image8 greyScreen(int width, int height) {
-    const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
-    return {width, height, 3, std::vector<std::uint8_t>(size, 128)};
-}
-
-void report(const Arguments& arguments, const TimingRun& timing, const Display& display) {
-    nlohmann::ordered_json json = spell(timing);
-    display.describe(json);
-    fmt::print("{}", arguments.json ? json.dump(2) + "\n" : inWords(timing));
-    if (arguments.out.empty())
-        return;
-    writeFile(arguments.out / "timing.json", json.dump(2) + "\n");
-    writeFile(arguments.out / "masks.csv", csv(timing));
-}
-
-int timing(const Arguments& arguments) {
-    Display display({windowOptions(arguments), 128, arguments.photodiode}, greyScreen);
-    fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
-    TimingRun timing;
-    timing.seconds = arguments.seconds;
-    int status = 0;
-    try {
-        Progress progress("masks", arguments.masks);
-        holdMasks(display, arguments.masks, timing, [&](int done) { progress.update(done); });
-    } catch (const EndedBySignal& ended) {
-        timing.ended = "ended by " + ended.name();
-        status = ended.exitStatus();
-    }
-    report(arguments, timing, display);
-    return status;
-}
-
 int run(int argc, char** argv) {
     CLI::App app("Shows a study's image pairs to one participant, full screen, and records the "
                  "answers. Also runs simulated participants.",
@@ -391,7 +360,8 @@ int run(int argc, char** argv) {
     declare(app, arguments);
     CLI11_PARSE(app, argc, argv);
     arguments.simulate = app.count("--simulate") > 0;
-    for (const CLI::App* each : {&app, app.get_subcommand("timing"), app.get_subcommand("card")})
+    for (const CLI::App* each : {&app, app.get_subcommand("timing"), app.get_subcommand("card"),
+                                 app.get_subcommand("calibrate")})
         arguments.windowed |= each->count("--windowed") > 0;
     arguments.rehearse |= arguments.windowed;
 
@@ -400,14 +370,19 @@ int run(int argc, char** argv) {
     if (app.got_subcommand("ledger"))
         return editLedger(arguments.ledger);
     heedSignals();
-    const bool times = app.got_subcommand("timing"), measures = app.got_subcommand("card");
+    const bool times = app.got_subcommand("timing"),
+               measures = app.got_subcommand("card") || app.got_subcommand("calibrate");
     if (!times && !measures && (arguments.protocol.empty() || arguments.stimuli.empty()))
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
         if (times)
-            return timing(arguments);
+            return runTiming({windowOptions(arguments), 128, arguments.photodiode}, arguments.masks,
+                             arguments.seconds, arguments.json, arguments.out);
         if (measures)
-            return measureCard(windowOptions(arguments), arguments.data) ? 0 : 1;
+            return (app.got_subcommand("card") ? measureCard : calibrate)(windowOptions(arguments),
+                                                                          arguments.data)
+                       ? 0
+                       : 1;
         const Study study = openStudy(arguments.protocol, arguments.stimuli);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
     } catch (const EndedBySignal& ended) {

@@ -6,6 +6,8 @@
 #include "experiment/text.h"
 #include "experiment/viewing.h"
 
+#include <nlohmann/json.hpp>
+
 #include <functional>
 #include <map>
 #include <optional>
@@ -47,12 +49,17 @@ class Presenter : public Observer {
     };
     Start askId(const StartFacts& start, const std::function<IdVerdict(const std::string&)>& judge);
     // What session files say of how the images are seen.
-    void seenAs(Viewing viewing) { viewing_ = std::move(viewing); }
+    void seenAs(Viewing viewing, nlohmann::ordered_json calibration) {
+        viewing_ = std::move(viewing);
+        calibration_ = std::move(calibration);
+    }
 
     Refresh refresh() const override { return display_.refresh(); }
     void describe(nlohmann::ordered_json& sidecar) const override {
         display_.describe(sidecar);
         obscura::describe(viewing_, sidecar);
+        if (!calibration_.empty())
+            sidecar["calibration"] = calibration_;
     }
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
@@ -116,6 +123,7 @@ class Presenter : public Observer {
     const Texts& texts_;
     std::string warning_;
     Viewing viewing_;
+    nlohmann::ordered_json calibration_; // of the screen, as it was kept
     std::vector<Phase> phases_;
     std::vector<std::map<std::string, gl::Picture>> pictures_; // by condition and role
     Sheet leave_;

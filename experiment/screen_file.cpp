@@ -81,6 +81,14 @@ ordered_json measured(const fs::path& file, const gl::Monitor& monitor, const st
     return (*found)["mode"] == modeOf(monitor) ? *found : ordered_json(nullptr);
 }
 
+ordered_json calibrationOf(const fs::path& data, const gl::Monitor& monitor) {
+    ordered_json found = ordered_json::object();
+    for (const char* key : {"gamma_by_eye", "luminance"})
+        if (ordered_json one = measured(screenFile(data, monitor), monitor, key); !one.is_null())
+            found[key] = std::move(one);
+    return found;
+}
+
 std::optional<ScreenSize> cardSize(const fs::path& data, const gl::Monitor& monitor) {
     const fs::path file = screenFile(data, monitor);
     const ordered_json card = measured(file, monitor, "card");

@@ -25,6 +25,9 @@ void keepMeasured(const std::filesystem::path& file, const gl::Monitor& monitor,
 nlohmann::ordered_json measured(const std::filesystem::path& file, const gl::Monitor& monitor,
                                 const std::string& key);
 
+// What was kept of its curve, by eye and by photometer; an empty object for nothing.
+nlohmann::ordered_json calibrationOf(const std::filesystem::path& data, const gl::Monitor& monitor);
+
 // By the card that somebody held to it.
 std::optional<ScreenSize> cardSize(const std::filesystem::path& data, const gl::Monitor& monitor);
 

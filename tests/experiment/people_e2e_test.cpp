@@ -7,6 +7,7 @@
 #include "tests/experiment/shipped_studies.h"
 
 #include <X11/keysym.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -177,6 +178,48 @@ TEST_F(PeopleTest, TheStartScreenKnowsHowFarTheStudyIs) {
     desktop.tap(XK_Tab); // there is no other monitor
     desktop.tap(XK_Return);
     await(desktop, program, "instructions");
+}
+
+// A photometer before a display of gamma 2, white 100 and black 1 cd/m2.
+TEST_F(PeopleTest, ACalibrationKeepsItsReadings) {
+    open({});
+    test::Desktop desktop(1280, 720);
+    Program program(desktop.name(), {"calibrate", "--data", data.string()}, output);
+    const auto type = [&](const std::string& text) {
+        for (const char c : text)
+            desktop.tap(c == '.' ? XK_period : static_cast<unsigned long>(c));
+    };
+    await(desktop, program, "match grey 186");
+    desktop.tap(XK_Down);
+    desktop.tap(XK_Left);
+    await(desktop, program, "match grey 177");
+    desktop.tap(XK_Return);
+    for (const char* channel : {"red", "green", "blue"}) {
+        await(desktop, program, fmt::format("match {} 186", channel));
+        desktop.tap(XK_Return);
+    }
+    for (int code = 0; code <= 255; code += code == 240 ? 15 : 16) {
+        await(desktop, program, fmt::format("patch {} ", code));
+        const Image8 screen = desktop.look();
+        EXPECT_EQ(screen.pixels[(360 * 1280 + 640) * 3], code) << "in the middle of the screen";
+        const std::string reading = fmt::format("{:.6f}", 1 + 99.0 * code * code / 255 / 255);
+        type(reading);
+        await(desktop, program, fmt::format("patch {} {}", code, reading));
+        desktop.tap(XK_Return);
+    }
+    await(desktop, program, "the curve");
+    desktop.tap(XK_Return);
+    EXPECT_EQ(program.wait(), 0);
+    EXPECT_THAT(program.output(), HasSubstr("gamma 2.000, white 100 cd/m²"));
+
+    Program session(desktop.name(), arguments({"--participant", "P01"}), output);
+    await(desktop, session, "instructions");
+    session.kill();
+    const auto sidecar =
+        nlohmann::json::parse(readFile(dataFolder().sidecar({"P01", 1, false})))["calibration"];
+    EXPECT_EQ(sidecar["luminance"]["readings"].size(), 17u);
+    EXPECT_NEAR(sidecar["luminance"]["gamma"], 2, 1e-4);
+    EXPECT_EQ(sidecar["gamma_by_eye"]["grey"]["code"], 177);
 }
 
 } // namespace

@@ -473,7 +473,8 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
                    "end = \"Abbrechen\"\nrest = \"Pause\"\nid = \"Pseudonym, dann Eingabe\"\n"
                    "enter = \"Eingabe\"\ndone = \"Fertig\"\nbetween = \"Hinauf und hinunter.\"\n"
                    "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"
-                   "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"});
+                   "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"
+                   "declined = \"Hier endet es.\"\n"});
     for (const TextKey& key : textKeys()) {
         const std::string usual = Texts().*key.text;
         EXPECT_TRUE(usual.empty() || texts.*key.text != usual) << key.name;
