@@ -6,17 +6,21 @@
 #include "experiment/broken_session.h"
 #include "experiment/calibrate.h"
 #include "experiment/card.h"
+#include "experiment/check.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
 #include "experiment/ledger_command.h"
 #include "experiment/presenter.h"
+#include "experiment/preview.h"
 #include "experiment/recorder.h"
 #include "experiment/screen_file.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
+#include "experiment/simulated.h"
 #include "experiment/start_facts.h"
 #include "experiment/timing_command.h"
+#include "experiment/visual.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -43,15 +47,15 @@ struct Arguments {
     std::string screenMm;
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
-    bool simulate = false, resume = false;
+    bool simulate = false, visual = false, resume = false;
     int simulated = 0; // how many; 0 as the protocol plans
     std::optional<std::uint64_t> seed;
+    fs::path preview;
+    bool check = false;
+    std::string size = "1920x1080"; // of a screen that nobody looks at
     LedgerCommand ledger;
     bool photodiode = false;
-    int masks = 1000; // with timing
-    double seconds = 2;
-    bool json = false;
-    fs::path out;
+    TimingArguments timing;
 };
 
 CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
@@ -83,17 +87,17 @@ void declareTools(CLI::App& app, Arguments& arguments) {
 void declareTiming(CLI::App& app, Arguments& arguments) {
     CLI::App* timing = app.add_subcommand(
         "timing", "Hold grey masks between images as a trial does, and say how long they were");
-    timing->add_option("--masks", arguments.masks, "How many")
+    timing->add_option("--masks", arguments.timing.masks, "How many")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    timing->add_option("--seconds", arguments.seconds, "How long each")
+    timing->add_option("--seconds", arguments.timing.seconds, "How long each")
         ->type_name("S")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
-    timing->add_flag("--json", arguments.json, "Print JSON instead of a table");
+    timing->add_flag("--json", arguments.timing.json, "Print JSON instead of a table");
     timing
-        ->add_option("--out", arguments.out,
+        ->add_option("--out", arguments.timing.out,
                      "Also write timing.json, and masks.csv with a line for each mask")
         ->type_name("DIR");
     declareScreen(*timing, arguments);
@@ -146,6 +150,23 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "Seed of the simulated participants; the protocol's when not given")
         ->type_name("S")
         ->needs(simulate);
+    app.add_flag("--visual", arguments.visual,
+                 "Run them through the real window, full screen, by keys that they press")
+        ->needs(simulate);
+    CLI::Option* preview =
+        app.add_option("--preview", arguments.preview,
+                       "Draw every screen of a trial, and the pages around it, on one sheet (PNG), "
+                       "without a window")
+            ->type_name("FILE")
+            ->excludes(windowed, rehearse, simulate);
+    app.add_flag("--check", arguments.check,
+                 "Prove that the study can be run to its end: all fits on the screen, and "
+                 "simulated participants finish every slot. Needs no stimuli; given --stimuli, "
+                 "their files are checked too")
+        ->excludes(windowed, rehearse, simulate, preview);
+    app.add_option("--size", arguments.size, "Of the screen, with --preview and --check")
+        ->type_name("WxH")
+        ->capture_default_str();
 
     declareLedger(app, arguments.ledger);
     declareTiming(app, arguments);
@@ -169,39 +190,55 @@ void checkFolder(const DataFolder& folder, const Study& study) {
         fmt::print(stderr, "obscura-experiment: {}\n", unknown);
 }
 
-int simulate(const Arguments& arguments, const Study& study) {
-    verifyStimuli(study.manifest);
-    const Protocol& protocol = study.protocol;
-    const DataFolder folder(arguments.data, protocol);
-    checkFolder(folder, study);
-    const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
-    Progress progress("simulated participants", count);
-    for (int i = 1; i <= count; ++i) {
-        const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
-        if (const std::string problem = objection(folder, session); !problem.empty())
-            throw Error(problem + "; or another data folder: --data DIR");
-        SimulatedObserver observer(protocol, arguments.seed.value_or(protocol.seed),
-                                   session.participant);
-        runSession(study, folder, session, observer);
-        progress.update(i, session.participant);
-    }
-    return 0;
-}
-
-gl::WindowOptions::Size sizeOf(const std::string& text) {
+gl::WindowOptions::Size sizeOf(const std::string& option, const std::string& text) {
     const auto size = parsePair(text, 'x');
     if (!size || std::max(size->first, size->second) > 16384)
         throw Error(
-            fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"", text));
+            fmt::format("{}: expected a size such as 1280x800, found \"{}\"", option, text));
     return {size->first, size->second};
 }
 
 gl::WindowOptions windowOptions(const Arguments& arguments) {
     gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt, throwIfEnded};
     if (arguments.windowed)
-        options.windowed = arguments.windowSize.empty() ? gl::WindowOptions::Size{1280, 800}
-                                                        : sizeOf(arguments.windowSize);
+        options.windowed = arguments.windowSize.empty()
+                               ? gl::WindowOptions::Size{1280, 800}
+                               : sizeOf("--windowed", arguments.windowSize);
     return options;
+}
+
+DisplayOptions displayOptions(const Arguments& arguments, const Study& study) {
+    return {windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode};
+}
+
+int simulate(const Arguments& arguments, const Study& study) {
+    verifyStimuli(study.manifest);
+    const Protocol& protocol = study.protocol;
+    const DataFolder folder(arguments.data, protocol);
+    checkFolder(folder, study);
+    const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
+    std::optional<Display> display;
+    std::optional<Presenter> presenter;
+    if (arguments.visual) {
+        display.emplace(displayOptions(arguments, study), curtain(study));
+        presenter.emplace(*display, study, "Simulated participant: answers do not count");
+    }
+    Progress progress("simulated participants", count);
+    for (int i = 1; i <= count; ++i) {
+        const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
+        if (const std::string problem = objection(folder, session); !problem.empty())
+            throw Error(problem + "; or another data folder: --data DIR");
+        const std::uint64_t seed = arguments.seed.value_or(protocol.seed);
+        if (presenter) {
+            VisualObserver observer(*presenter, protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        } else {
+            SimulatedObserver observer(protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        }
+        progress.update(i, session.participant);
+    }
+    return 0;
 }
 
 // What stands above every page of text, and on stderr: the session is no measurement. An Error on
@@ -305,8 +342,7 @@ Viewing viewingOn(const Arguments& arguments, const Study& study, const gl::Moni
 // Nothing when the experimenter wants another monitor.
 std::optional<int> presentOn(const Arguments& arguments, const Study& study,
                              const DataFolder& folder, int monitors) {
-    Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
-                    curtain(study));
+    Display display(displayOptions(arguments, study), curtain(study));
     const Viewing viewing = viewingOn(arguments, study, display.monitor());
     Presenter presenter(display, study, warning(arguments, display));
     presenter.seenAs(viewing, calibrationOf(arguments.data, display.monitor()));
@@ -352,6 +388,28 @@ int present(Arguments arguments, const Study& study) {
             return *status;
 }
 
+int check(const Arguments& arguments) {
+    const auto [width, height] = sizeOf("--size", arguments.size);
+    std::string found = checkRuns(readProtocol(arguments.protocol), width, height);
+    if (!arguments.stimuli.empty()) {
+        const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        verifyStimuli(study.manifest);
+        found += fmt::format("; {} images are as made", imageCount(study.protocol));
+    }
+    fmt::print("{}\n", found);
+    return 0;
+}
+
+int preview(const Arguments& arguments, const Study& study) {
+    const auto [width, height] = sizeOf("--size", arguments.size);
+    writePng(arguments.preview, previewSheet(study, width, height));
+    return 0;
+}
+
+int timing(const Arguments& arguments) {
+    return holdAndReport({windowOptions(arguments), 128, arguments.photodiode}, arguments.timing);
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Shows a study's image pairs to one participant, full screen, and records the "
                  "answers. Also runs simulated participants.",
@@ -372,18 +430,22 @@ int run(int argc, char** argv) {
     heedSignals();
     const bool times = app.got_subcommand("timing"),
                measures = app.got_subcommand("card") || app.got_subcommand("calibrate");
-    if (!times && !measures && (arguments.protocol.empty() || arguments.stimuli.empty()))
+    if (!times && !measures &&
+        (arguments.protocol.empty() || (arguments.stimuli.empty() && !arguments.check)))
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
         if (times)
-            return runTiming({windowOptions(arguments), 128, arguments.photodiode}, arguments.masks,
-                             arguments.seconds, arguments.json, arguments.out);
+            return timing(arguments);
         if (measures)
             return (app.got_subcommand("card") ? measureCard : calibrate)(windowOptions(arguments),
                                                                           arguments.data)
                        ? 0
                        : 1;
+        if (arguments.check)
+            return check(arguments);
         const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        if (!arguments.preview.empty())
+            return preview(arguments, study);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
     } catch (const EndedBySignal& ended) {
         fmt::print(stderr, "obscura-experiment: ended by {}; answers so far are kept\n",

@@ -3,7 +3,7 @@
 #include "experiment/display.h"
 #include "experiment/observer.h"
 #include "experiment/pages.h"
-#include "experiment/text.h"
+#include "experiment/screens.h"
 #include "experiment/viewing.h"
 
 #include <nlohmann/json.hpp>
@@ -54,6 +54,12 @@ class Presenter : public Observer {
         calibration_ = std::move(calibration);
     }
 
+    // For one who is not a person: called before the presenter sleeps, with all on the screen, and
+    // again after the seconds that it returns, should nothing arrive before.
+    void whileWaiting(std::function<double()> attend) { attend_ = std::move(attend); }
+    double now() const { return display_.window().now(); }
+    bool hasKeyboard() const { return display_.window().focused(); }
+
     Refresh refresh() const override { return display_.refresh(); }
     void describe(nlohmann::ordered_json& sidecar) const override {
         display_.describe(sidecar);
@@ -71,39 +77,28 @@ class Presenter : public Observer {
     void decline() override { dismiss(declinedPage(texts_), "declined"); }
 
   private:
-    // A page in graphics memory, and where its options are.
+    // A page in graphics memory.
     struct Sheet {
-        Page page;
+        Screenful screen;
         std::string title; // of the window
         gl::Picture picture;
-        std::vector<Box> options;
-        std::vector<Box> places;         // of images on it,
-        std::vector<std::string> images; // and which: by place or role
     };
 
     // What a phase shows, so that showing it is nothing but drawing.
     struct Prepared {
         std::optional<Sheet> sheet; // of a page of text, and of questions not yet answered
         std::vector<Placed> images;
+        int grey = 0;      // behind them
         std::string title; // of the window; "" leaves it as it is
     };
 
     Sheet sheet(Page page, std::string title) const; // with the warning above it
-    Sheet drawn(Page page, std::string title) const;
-    void checkFits() const;
+    Sheet uploaded(Screenful screen, std::string title) const;
     void loadImages();
     double showSheet(const Sheet& sheet);
     double showImages(std::span<const Placed> images, int grey);
-    std::vector<Placed> placedOn(const Sheet& sheet) const;
     const gl::Picture& picture(const std::string& image) const;
-    std::vector<Box> gridOn(const Phase& phase) const;
-    std::vector<Placed> placed(const Phase& phase) const;
-    Sheet formSheet(const Form& form, const Phase& phase) const;
-    Page::Pictures room(const Phase& phase) const;
-    Form formOf(const Phase& phase) const {
-        return {phase.questions, places(), study_.protocol.keys};
-    }
-    int places() const { return static_cast<int>(study_.protocol.trial.order.size()); }
+    std::vector<Placed> placed(const Screenful& screen) const;
     void announce();
     std::vector<gl::Input> inputs();
     Event clicked(const gl::Input& input) const;
@@ -112,7 +107,6 @@ class Presenter : public Observer {
     bool read(const Sheet& page);
     bool leaves();
     void dismiss(Page page, std::string title);
-    Page pageOf(const Phase& phase) const;
     int choose(const Sheet& page);
     bool goesOn(int trials);
     Sheet startSheet(const StartFacts& start, const std::string& typed,
@@ -121,7 +115,7 @@ class Presenter : public Observer {
     Display& display_;
     const Study& study_;
     const Texts& texts_;
-    std::string warning_;
+    Screens screens_;
     Viewing viewing_;
     nlohmann::ordered_json calibration_; // of the screen, as it was kept
     std::vector<Phase> phases_;
@@ -142,6 +136,7 @@ class Presenter : public Observer {
     Sheet unfocused_;       // this in its place
     std::string title_;     // what is on the screen, and
     std::string announced_; // what the window's title says
+    std::function<double()> attend_;
 };
 
 } // namespace obscura

@@ -22,29 +22,6 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// The roles at the places 1, 2 and so on.
-std::vector<std::string> placed(const std::vector<std::string>& roles,
-                                const std::vector<int>& order) {
-    std::vector<std::string> result(order.size());
-    std::transform(order.begin(), order.end(), result.begin(),
-                   [&](int role) { return roles[static_cast<std::size_t>(role)]; });
-    return result;
-}
-
-// What an order may depend on: each answer as it was given, but of images the role in place of the
-// number.
-PastTrial remember(const std::vector<Phase>& phases, const Upcoming& trial,
-                   const TrialRecord& record) {
-    PastTrial past{trial.planned, {}, record.interrupted};
-    for (const Answer& answer : record.answers)
-        past.answers[answer.name] = answer.value;
-    for (const Phase& phase : phases)
-        for (const Question& question : phase.questions)
-            if (question.images)
-                past.answers[question.name] = trial.role(past.answers[question.name]);
-    return past;
-}
-
 int hastyPressesOf(const TrialRecord& record) {
     int sum = 0;
     for (const PhaseRecord& phase : record.phases)
@@ -68,16 +45,14 @@ bool playAll(const Context& context, const BrokenSession& before, Observer& obse
             history.push_back({*planned, {}, false});
             continue;
         }
-        const Upcoming trial{index++, count, *planned,
-                             placed(protocol.trial.order, planned->roles)};
+        const Upcoming trial = upcoming(protocol, *planned, index++, count);
         TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz,
                              protocol.keys);
         observer.prepare(trial);
-        const auto journal = [&] {
-            recorder.trialStarted(trial.index,
-                                  context.study.condition(trial.planned.condition).condition);
-        };
-        if (!play(machine, observer, journal))
+        if (!play(machine, observer, [&] {
+                recorder.trialStarted(trial.index,
+                                      context.study.condition(trial.planned.condition).condition);
+            }))
             return false;
         recorder.finished(trial.index, linesOf(context, trial, machine.record()));
         history.push_back(remember(phases, trial, machine.record()));
@@ -87,6 +62,14 @@ bool playAll(const Context& context, const BrokenSession& before, Observer& obse
             intervals.insert(intervals.end(), phase.intervals.begin(), phase.intervals.end());
     }
     return true;
+}
+
+// Of what stopped the session, which may be that nothing can be written any more.
+void noteStop(Recorder& recorder, const std::string& why) {
+    try {
+        recorder.end("stopped: " + why);
+    } catch (const std::exception&) {
+    }
 }
 
 // What goes on after what was before; nothing was, for a new session.
@@ -132,6 +115,9 @@ bool run(const Study& study, const DataFolder& folder, const BrokenSession& befo
         ended = signal;
         if (!completed)
             reason = "ended by " + signal.name();
+    } catch (const std::exception& error) {
+        noteStop(recorder, error.what());
+        throw;
     }
     recorder.end(reason);
     addOutcome(sidecar, reason, intervals, refresh.hz);

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <cstdio>
+
 namespace obscura {
 
 namespace {
@@ -17,29 +19,32 @@ Image8 greyScreen(int width, int height) {
     return {width, height, 3, std::vector<std::uint8_t>(size, 128)};
 }
 
+void report(const TimingArguments& arguments, const TimingRun& timing, const Display& display) {
+    nlohmann::ordered_json json = spell(timing);
+    display.describe(json);
+    fmt::print("{}", arguments.json ? json.dump(2) + "\n" : inWords(timing));
+    if (arguments.out.empty())
+        return;
+    writeFile(arguments.out / "timing.json", json.dump(2) + "\n");
+    writeFile(arguments.out / "masks.csv", csv(timing));
+}
+
 } // namespace
 
-int runTiming(const DisplayOptions& options, int masks, double seconds, bool json,
-              const std::filesystem::path& out) {
+int holdAndReport(const DisplayOptions& options, const TimingArguments& arguments) {
     Display display(options, greyScreen);
     fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
     TimingRun timing;
-    timing.seconds = seconds;
+    timing.seconds = arguments.seconds;
     int status = 0;
     try {
-        Progress progress("masks", masks);
-        holdMasks(display, masks, timing, [&](int done) { progress.update(done); });
+        Progress progress("masks", arguments.masks);
+        holdMasks(display, arguments.masks, timing, [&](int done) { progress.update(done); });
     } catch (const EndedBySignal& ended) {
         timing.ended = "ended by " + ended.name();
         status = ended.exitStatus();
     }
-    nlohmann::ordered_json spelt = spell(timing);
-    display.describe(spelt);
-    fmt::print("{}", json ? spelt.dump(2) + "\n" : inWords(timing));
-    if (!out.empty()) {
-        writeFile(out / "timing.json", spelt.dump(2) + "\n");
-        writeFile(out / "masks.csv", csv(timing));
-    }
+    report(arguments, timing, display);
     return status;
 }
 

@@ -6,9 +6,14 @@
 
 namespace obscura {
 
-// Holds masks on a display and says how long they were: on stdout as a table or as JSON, and, where
-// `out` is a folder, in timing.json and masks.csv. The program's exit status.
-int runTiming(const DisplayOptions& options, int masks, double seconds, bool json,
-              const std::filesystem::path& out);
+struct TimingArguments {
+    int masks = 1000;
+    double seconds = 2; // each
+    bool json = false;
+    std::filesystem::path out; // folder of further files; "" for none
+};
+
+// Holds masks on a display and says how long they were: the program's exit status.
+int holdAndReport(const DisplayOptions& options, const TimingArguments& arguments);
 
 } // namespace obscura

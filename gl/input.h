@@ -11,6 +11,8 @@ enum class Key : int {
     one = 49, // and so on to nine
     two = 50,
     nine = 57,
+    a = 65, // and so on to z
+    z = 90,
     escape = 256,
     enter = 257,
     tab = 258,
