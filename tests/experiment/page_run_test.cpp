@@ -2,6 +2,7 @@
 #include "experiment/broken_session.h"
 #include "experiment/recorder.h"
 #include "experiment/session.h"
+#include "experiment/simulated.h"
 #include "tests/error_of.h"
 #include "tests/experiment/shipped_studies.h"
 #include "tests/experiment/tiny_study.h"

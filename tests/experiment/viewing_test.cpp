@@ -1,6 +1,7 @@
 #include "base/files.h"
 #include "experiment/screen_file.h"
 #include "experiment/session.h"
+#include "experiment/simulated.h"
 #include "experiment/start_facts.h"
 #include "experiment/viewing.h"
 #include "tests/error_of.h"
