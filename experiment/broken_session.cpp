@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "experiment/machine.h"
-#include "experiment/page_run.h"
 #include "protocols/reader/trial_tables.h"
 
 #include <fmt/format.h>
@@ -190,6 +189,10 @@ void checkCanGoOn(const Study& study, const fs::path& path, const Journal& journ
 }
 
 } // namespace
+
+std::string pageKey(std::string_view kind, const std::string& page) {
+    return std::string(kind) + "/" + page;
+}
 
 std::string endOf(const fs::path& journal) { return readJournal(journal).ended; }
 

@@ -6,6 +6,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -20,6 +21,11 @@ struct BrokenSession {
     std::vector<std::string> halfSeen; // conditions of those that began and were not answered
     std::set<std::string> pages; // before and after the trials, that were ended: "before/consent"
 };
+
+std::string pageKey(std::string_view kind, const std::string& page); // "before/consent"
+
+// With which the reason of a session begins that is not to be gone on with.
+constexpr std::string_view endedByAnswer = "ended by the answer to ";
 
 // Replays the session's journal: whatever the participant has seen is not shown again. An Error
 // says why nobody can go on with it: there is none, it was completed, it broke off longer ago than

@@ -1,5 +1,6 @@
 #include "experiment/page_run.h"
 
+#include "experiment/broken_session.h"
 #include "experiment/play.h"
 
 #include <algorithm>
@@ -28,10 +29,6 @@ std::size_t endingIn(const Phase& page, const std::vector<Answer>& answers) {
 }
 
 } // namespace
-
-std::string pageKey(std::string_view kind, const std::string& page) {
-    return std::string(kind) + "/" + page;
-}
 
 PagesEnd runPages(const Context& context, std::string_view kind, const std::set<std::string>& done,
                   Observer& observer, Recorder& recorder) {

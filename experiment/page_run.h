@@ -24,9 +24,4 @@ struct PagesEnd {
 PagesEnd runPages(const Context& context, std::string_view kind, const std::set<std::string>& done,
                   Observer& observer, Recorder& recorder);
 
-std::string pageKey(std::string_view kind, const std::string& page); // "before/consent"
-
-// With which the reason of a session begins that is not to be gone on with.
-constexpr std::string_view endedByAnswer = "ended by the answer to ";
-
 } // namespace obscura
