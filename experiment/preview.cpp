@@ -46,12 +46,16 @@ class Preview {
 
     std::vector<PreviewedScreen> all() {
         const Texts& texts = study_.protocol.texts;
+        for (const Phase& page : study_.protocol.before)
+            add(page);
         add("instructions", "Space or a click", screens_.page(instructionsPage(texts)));
         for (const Phase& phase : phasesOf(study_.protocol.trial))
             add(phase);
         if (const int every = study_.protocol.ordering.breakEvery; every > 0)
             add("break", fmt::format("Space or a click; after every {} main trials", every),
                 screens_.page(restPage(texts)));
+        for (const Phase& page : study_.protocol.after)
+            add(page);
         add("leave", "1 or Escape goes back, 2 ends; asked for by Escape",
             screens_.page(leavePage(texts)));
         add("thanks", "any key", screens_.page(thanksPage(texts)));

@@ -34,15 +34,16 @@ Screenful Screens::unfocused(const Screenful& screen) const {
 }
 
 Screenful Screens::phase(const Phase& phase, int trial, int trials) const {
-    return this->phase(phase, trial, trials,
-                       Form(phase.questions, static_cast<int>(protocol_.trial.order.size())));
+    return this->phase(
+        phase, trial, trials,
+        Form(phase.questions, static_cast<int>(protocol_.trial.order.size()), protocol_.keys));
 }
 
 Screenful Screens::phase(const Phase& phase, int trial, int trials, const Form& form) const {
     Screenful screen;
     screen.grey = phase.grey >= 0 ? phase.grey : protocol_.trial.grey;
     if (!phase.questions.empty())
-        screen = page(formPage(protocol_.texts, form, roomFor(phase)));
+        screen = page(formPage(protocol_.texts, form, roomFor(phase), phase.text));
     else if (!phase.text.empty())
         screen = page(textPage(protocol_.texts, phase, trial, trials));
     else if (!phase.images.empty())
@@ -88,6 +89,11 @@ void Screens::check() const {
           idPage(texts, "", texts.idTaken), instructionsPage(texts), restPage(texts),
           leavePage(texts), resumePage(texts, trials, trials), thanksPage(texts)})
         unfocused(page(each));
+    if (!protocol_.before.empty())
+        unfocused(page(declinedPage(texts)));
+    for (const auto* pages : {&protocol_.before, &protocol_.after})
+        for (const Phase& each : *pages)
+            unfocused(phase(each, 0, 0));
     for (const Phase& each : phasesOf(protocol_.trial))
         if (const Screenful screen = phase(each, trials, trials); screen.drawn)
             unfocused(screen);

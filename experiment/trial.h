@@ -71,7 +71,7 @@ class TrialMachine {
     };
 
     // `images`: how many places the trial's order has.
-    TrialMachine(std::vector<Phase> phases, int images, double refreshHz);
+    TrialMachine(std::vector<Phase> phases, int images, double refreshHz, Keys keys = {});
 
     Next next() const;
     Screen screen() const { return screen_; }
@@ -114,6 +114,7 @@ class TrialMachine {
     std::vector<Phase> phases_;
     int images_;
     double refreshHz_;
+    Keys keys_;
     TrialRecord record_;
 
     Screen screen_ = 0;             // wanted

@@ -118,16 +118,19 @@ json toJson(const Ordering& ordering) {
 
 json toJson(const Question& question) {
     const auto& [name, kind, text, options, images, unsure, lowest, least, most, low, high,
-                 optional, place] = question;
-    return {{"kind", static_cast<int>(kind)},
-            {"text", text},
-            {"options", options},
-            {"images", images},
-            {"unsure", unsure},
-            {"lowest", lowest},
-            {"range", {least, most}},
-            {"ends", {low, high}},
-            {"optional", optional}};
+                 optional, endsUnless, place] = question;
+    json result = {{"kind", static_cast<int>(kind)},
+                   {"text", text},
+                   {"options", options},
+                   {"images", images},
+                   {"unsure", unsure},
+                   {"lowest", lowest},
+                   {"range", {least, most}},
+                   {"ends", {low, high}},
+                   {"optional", optional}};
+    if (!endsUnless.empty())
+        result["endsUnless"] = endsUnless;
+    return result;
 }
 
 // Lists are kept by name and place, so that what differs is told by name.
@@ -212,13 +215,32 @@ void split(const std::vector<T>& items, const std::set<std::string>& used, const
         (used.contains(item.name) ? ifUsed : otherwise)[key][item.name] = toJson(item);
 }
 
+json toJson(const ScreenNeeds& needs) {
+    const auto& [distanceCm, degrees, pixelsPerDegree] = needs;
+    json result = {{"distanceCm", distanceCm}};
+    if (degrees)
+        result["degrees"] = *degrees;
+    if (pixelsPerDegree)
+        result["pixelsPerDegree"] = {{"min", (*pixelsPerDegree)[0]},
+                                     {"max", (*pixelsPerDegree)[1]}};
+    return result;
+}
+
+std::vector<std::string> spelt(const std::vector<int>& keys) {
+    std::vector<std::string> names;
+    for (const int key : keys)
+        names.emplace_back(nameOfKey(key));
+    return names;
+}
+
 struct Parts {
     json stimuli, procedure, texts;
 };
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, boost, trial, ordering, words, simulation, path, sha256] = protocol;
+                 conditions, boost, trial, before, after, keys, screen, ordering, words, simulation,
+                 path, sha256] = protocol;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -233,6 +255,16 @@ Parts split(const Protocol& protocol) {
     result.procedure = {{"trial", toJson(trial)},
                         {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};
+    if (screen.distanceCm > 0)
+        result.procedure["screen"] = toJson(screen);
+    if (!(keys == Keys())) // which hand does what
+        result.procedure["keys"] = {
+            {"first", spelt(keys.first)}, {"second", spelt(keys.second)}, {"go", spelt(keys.go)}};
+    // Who takes part, and what they have been asked before: studies that ask nothing keep theirs.
+    if (!before.empty())
+        result.procedure["before"] = toJson(before);
+    if (!after.empty())
+        result.procedure["after"] = toJson(after);
     if (!parts.correct.empty())
         result.procedure["correct answers"] = parts.correct;
     result.texts = {

@@ -37,6 +37,21 @@ void parseRange(TomlTable& table, Question& question) {
                                                        question.least, question.most));
 }
 
+void parseEndsUnless(TomlTable& table, Question& question) {
+    for (PlacedText& option : table.texts("endsUnless", "options, such as [\"agree\"]")) {
+        if (std::find(question.options.begin(), question.options.end(), option.text) ==
+            question.options.end())
+            throw Error(option.place,
+                        fmt::format("expected one of the question's options, found "
+                                    "\"{}\"{}",
+                                    option.text, suggestion(option.text, question.options)));
+        question.endsUnless.push_back(std::move(option.text));
+    }
+    if (!question.endsUnless.empty() && question.optional)
+        throw Error(table.placeOf("optional"), "expected no \"optional\" where \"endsUnless\" asks "
+                                               "for an answer");
+}
+
 Question parseQuestion(TomlTable table) {
     using Kind = Question::Kind;
     Question question;
@@ -46,8 +61,10 @@ Question parseQuestion(TomlTable table) {
     question.kind = static_cast<Kind>(table.choice("kind", kinds, 0));
     question.text = table.text("text", "");
     question.optional = table.flag("optional", false);
-    if (question.kind == Kind::choice || question.kind == Kind::scale)
+    if (question.kind == Kind::choice || question.kind == Kind::scale) {
         parseOptions(table, question);
+        parseEndsUnless(table, question);
+    }
     if (question.kind == Kind::choice) {
         question.images = table.flag("images", false);
         question.unsure = table.text("unsure", "");
@@ -181,16 +198,25 @@ void mustBeNew(std::set<std::string>& names, const std::string& name, const Plac
         throw Error(place, fmt::format("expected a new name, found \"{}\" again", name));
 }
 
-std::vector<Phase> parsePhases(TomlTable& trial) {
+std::vector<Phase> parsePhases(TomlTable& owner, std::string_view key, std::string_view expected) {
     std::vector<Phase> phases;
     std::set<std::string> names, answers;
-    for (TomlTable& table : trial.list("phases", "[[trial.phases]]")) {
+    for (TomlTable& table : owner.list(key, expected)) {
         phases.push_back(parsePhase(std::move(table)));
         mustBeNew(names, phases.back().name, phases.back().place);
         for (const Question& question : phases.back().questions)
             mustBeNew(answers, question.name, question.place);
     }
     return phases;
+}
+
+// What belongs around the trials is not asked in each of them.
+void checkInTrial(const std::vector<Phase>& phases) {
+    for (const Phase& phase : phases)
+        for (const Question& question : phase.questions)
+            if (!question.endsUnless.empty())
+                throw Error(question.place,
+                            "expected \"endsUnless\" only in questions of [[before]]");
 }
 
 bool isPlace(const std::string& image) {
@@ -217,6 +243,17 @@ void parseOrder(TomlTable& table, Trial& trial) {
 }
 
 } // namespace
+
+bool admits(const Question& question, const std::string& value) {
+    if (question.endsUnless.empty())
+        return true;
+    const int lowest = question.kind == Question::Kind::scale ? question.lowest : 1;
+    for (std::size_t i = 0; i < question.options.size(); ++i)
+        if (value == fmt::format("{}", lowest + static_cast<int>(i)))
+            return std::find(question.endsUnless.begin(), question.endsUnless.end(),
+                             question.options[i]) != question.endsUnless.end();
+    return false;
+}
 
 std::string nameOf(Question::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
@@ -276,7 +313,8 @@ Trial parseTrial(TomlTable table) {
     Trial trial;
     trial.grey = table.integer("grey", 0, 255, trial.grey);
     if (table.has("phases")) {
-        trial.given = parsePhases(table);
+        trial.given = parsePhases(table, "phases", "[[trial.phases]]");
+        checkInTrial(trial.given);
         parseOrder(table, trial);
     } else {
         trial.mask = table.number("mask", 0.1, 60, trial.mask);
@@ -284,6 +322,32 @@ Trial parseTrial(TomlTable table) {
     }
     table.finish();
     return trial;
+}
+
+namespace {
+
+void checkPage(const Phase& page, bool before) {
+    if (page.text.empty() && page.questions.empty())
+        throw Error(page.place, "expected \"text\" or \"questions\"; grey is for trials");
+    if (!page.images.empty() || page.progress)
+        throw Error(page.place, "expected no images and no \"progress\" outside trials");
+    for (const Question& question : page.questions) {
+        if (question.images || question.kind == Question::Kind::rank)
+            throw Error(question.place, "expected no question about images outside trials");
+        if (!before && !question.endsUnless.empty())
+            throw Error(question.place, "expected \"endsUnless\" only in questions of [[before]]");
+    }
+}
+
+} // namespace
+
+std::vector<Phase> parsePages(TomlTable& root, std::string_view key) {
+    if (!root.has(key))
+        return {};
+    std::vector<Phase> pages = parsePhases(root, key, "pages of text or questions");
+    for (const Phase& page : pages)
+        checkPage(page, key == "before");
+    return pages;
 }
 
 } // namespace obscura
