@@ -25,10 +25,13 @@ struct Choice {
 // bias in logits (> 0: towards the first), lapse 0 to 1, precision > 0 with 1 the typical observer.
 // Normal priors with the means and standard deviations below, on value, bias, log precision and
 // logit lapse; all but the last have mean 0. The result is the posterior mode with Laplace's
-// covariance. Unlike leaving observers out, nobody is deleted: who guesses weighs little.
+// covariance. Unlike leaving observers out, nobody is deleted: who guesses weighs little. The
+// priors let a guesser lapse rather than be imprecise, for precisions set the unit of the scale,
+// and guessers taken for very imprecise people would shrink it for all. In few answers low
+// precision and lapses look alike: precision (1 - lapse) is told better than either.
 struct ObserverPriors {
-    double valueSd = 3, biasSd = 0.7, logPrecisionSd = 0.5; // all > 0
-    double logitLapseMean = -3.5, logitLapseSd = 1.5;       // median 3 %, 95 % below 26 %
+    double valueSd = 3, biasSd = 0.7, logPrecisionSd = 0.35; // all > 0
+    double logitLapseMean = -3.5, logitLapseSd = 2;          // median 3 %, 95 % below 45 %
 };
 
 struct Observer {

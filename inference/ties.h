@@ -19,8 +19,8 @@ struct TieScale {
 
 // Davidson, J. Am. Stat. Assoc. 65 (1970) 317: with worths w, P(i) : P(j) : P(tie) =
 // w(i) : w(j) : nu sqrt(w(i) w(j)). Values are log worths, ties is nu (>= 0): two equal items tie
-// with probability nu / (2 + nu). Agrees with R's psychotools 0.7-2, btmodel(ties = TRUE). Absent
-// where the likelihood has no finite maximum: only ties, or an item that never lost.
+// with probability nu / (2 + nu). Agrees with R's psychotools 0.7-2, btmodel(undecided = TRUE).
+// Absent where the likelihood has no finite maximum: only ties, or an item that never lost.
 std::optional<TieScale> davidson(const Wins& wins, const Eigen::MatrixXd& ties);
 
 // A threshold on the difference: P(i) = F(q(i) - q(j) - t), P(j) = F(q(j) - q(i) - t), and a tie
