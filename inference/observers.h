@@ -17,8 +17,8 @@ struct Choice {
 };
 
 // A Bayesian Bradley-Terry model with the observers in it, in the manner of BBQ (Aczel, Theis,
-// Wattenhofer, arXiv:2510.09333, 2025), which weighs each rater by a probability to answer by the
-// items and not at random; here observers also have a position bias and a precision of their own:
+// Wattenhofer, arXiv:2510.09333, 2025: each rater has a quality, estimated with the items, so that
+// the unreliable count less). The parts of that quality, and how it is fitted, are ours:
 //
 //   P(first) = lapse / 2 + (1 - lapse) logistic(precision (value(first) - value(second)) + bias)
 //
