@@ -46,10 +46,9 @@ Outcomes davidsonOutcomes(const Outcome& difference, const Outcome& logNu) {
 
 Outcomes thresholdOutcomes(Link link, const Outcome& difference, const Outcome& logThreshold) {
     const Outcome threshold = exp(logThreshold);
-    // F(t - d) - F(-t - d), taken in the tail where d >= 0, so that nothing cancels.
-    const Outcome apart = difference.value < 0 ? -difference : difference;
-    const Outcome upper = logProbability(link, threshold - apart);
-    const Outcome lower = logProbability(link, -threshold - apart);
+    // F(t - d) - F(-t - d), by logarithms, which are precise in both tails.
+    const Outcome upper = logProbability(link, threshold - difference);
+    const Outcome lower = logProbability(link, -threshold - difference);
     return {logProbability(link, difference - threshold),
             logProbability(link, -difference - threshold), upper + log1mExp(lower - upper)};
 }

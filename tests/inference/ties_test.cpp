@@ -81,6 +81,26 @@ TEST(Ties, WithoutAFiniteMaximumThereIsNone) {
     EXPECT_FALSE(davidson(Wins::Zero(2, 2), Wins::Zero(2, 2)));
 }
 
+TEST(Ties, OneBetweenItemsFarApartIsNotRoundedAway) {
+    // Each beats the next 99999 times in 100000, and once the best and the worst of four tied,
+    // some ten standard deviations apart. Numbering the items from the other end changes nothing.
+    Wins chain = Wins::Zero(4, 4);
+    for (int i = 1; i < 4; ++i) {
+        chain(i, i - 1) = 99999;
+        chain(i - 1, i) = 1;
+    }
+    Eigen::MatrixXd tie = Eigen::MatrixXd::Zero(4, 4);
+    tie(0, 3) = tie(3, 0) = 1;
+    for (const Link link : {Link::logit, Link::probit}) {
+        const auto upward = thresholdScale(chain, tie, link);
+        const auto downward = thresholdScale(chain.reverse(), tie.reverse(), link);
+        ASSERT_TRUE(upward && downward);
+        EXPECT_GT(upward->scale.values(3) - upward->scale.values(0), 10);
+        EXPECT_TRUE(upward->scale.values.isApprox(downward->scale.values.reverse(), 1e-7));
+        EXPECT_NEAR(upward->ties->value, downward->ties->value, 1e-7 * upward->ties->value);
+    }
+}
+
 TEST(Ties, RefuseTiesThatAreNotMutual) {
     EXPECT_THROW(davidson(square({0, 1, 1, 0}), square({0, 2, 1, 0})), Error);
     EXPECT_THROW(davidson(square({0, 1, 1, 0}), Wins::Zero(3, 3)), Error);
