@@ -1,8 +1,11 @@
 #include "inference/counts.h"
 
+#include "base/error.h"
+
 #include "inference/tails.h"
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/gamma.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
@@ -14,10 +17,12 @@ namespace obscura {
 
 namespace {
 
-double shareOfB(Votes votes) {
-    assert(votes.a >= 0 && votes.b >= 0 && votes.total() > 0);
-    return static_cast<double>(votes.b) / static_cast<double>(votes.total());
+double totalOf(Votes votes) {
+    requireVotes(votes);
+    return static_cast<double>(votes.total());
 }
+
+double shareOfB(Votes votes) { return static_cast<double>(votes.b) / totalOf(votes); }
 
 // In long double, for at a thousand million votes the terms cancel to a ten thousand millionth.
 long double logBeta(long double a, long double b) {
@@ -27,22 +32,30 @@ long double logBeta(long double a, long double b) {
 
 } // namespace
 
+void requireVotes(Votes votes) {
+    if (votes.a < 0 || votes.b < 0 || votes.total() == 0)
+        throw Error(fmt::format("expected at least one vote, and none negative; found {} and {}",
+                                votes.a, votes.b));
+}
+
 double chiSquare(Votes votes) {
     const auto difference = static_cast<double>(votes.a - votes.b);
-    return difference * difference / static_cast<double>(votes.total());
+    return difference * difference / totalOf(votes);
 }
 
 double chiSquareYates(Votes votes) {
     const auto difference =
         static_cast<double>(std::max<std::int64_t>(std::abs(votes.a - votes.b) - 1, 0));
-    return difference * difference / static_cast<double>(votes.total());
+    return difference * difference / totalOf(votes);
 }
 
 double exactP(Votes votes) {
+    requireVotes(votes);
     return std::min(1.0, 2 * binomialLower(std::min(votes.a, votes.b), votes.total(), 0.5));
 }
 
 double midP(Votes votes) {
+    requireVotes(votes);
     if (votes.a == votes.b)
         return 1;
     const std::int64_t fewer = std::min(votes.a, votes.b);
@@ -50,8 +63,7 @@ double midP(Votes votes) {
 }
 
 Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
-    assert(successes >= 0 && successes <= trials && trials > 0);
-    const auto n = static_cast<double>(trials);
+    const double n = totalOf({trials - successes, successes});
     const double share = static_cast<double>(successes) / n;
     const double z = probit((1 + confidence) / 2), z2 = z * z;
     const double scale = 1 / (1 + z2 / n);
@@ -62,7 +74,7 @@ Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) 
 }
 
 Interval clopperPearson(std::int64_t successes, std::int64_t trials, double confidence) {
-    assert(successes >= 0 && successes <= trials && trials > 0);
+    requireVotes({trials - successes, successes});
     const auto k = static_cast<double>(successes), rest = static_cast<double>(trials - successes);
     const double tail = (1 - confidence) / 2;
     using boost::math::ibeta_inv, boost::math::ibetac_inv;
@@ -71,7 +83,7 @@ Interval clopperPearson(std::int64_t successes, std::int64_t trials, double conf
 }
 
 Interval jeffreys(std::int64_t successes, std::int64_t trials, double confidence) {
-    assert(successes >= 0 && successes <= trials && trials > 0);
+    requireVotes({trials - successes, successes});
     const double k = static_cast<double>(successes) + 0.5;
     const double rest = static_cast<double>(trials - successes) + 0.5;
     const double tail = (1 - confidence) / 2;
@@ -83,9 +95,7 @@ double cohenG(Votes votes) { return shareOfB(votes) - 0.5; }
 // 2 asin sqrt(p) - pi/2 = asin(2p - 1), which is exactly 0 for an even split.
 double cohenH(Votes votes) { return std::asin(2 * shareOfB(votes) - 1); }
 
-double cohenW(Votes votes) {
-    return std::sqrt(chiSquare(votes) / static_cast<double>(votes.total()));
-}
+double cohenW(Votes votes) { return std::sqrt(chiSquare(votes) / totalOf(votes)); }
 
 std::optional<double> jod(Votes votes) {
     if (votes.a == 0 || votes.b == 0)

@@ -17,7 +17,9 @@ struct Votes {
 };
 
 // The functions below need at least one vote; frequencies() is the one to call for any counts.
-// None takes time that grows with the votes.
+// requireVotes() throws their Error for none, and for negative ones. None takes time that grows
+// with the votes.
+void requireVotes(Votes votes);
 
 // Pearson 1900, against (N/2, N/2): (a - b)^2 / N, at one degree of freedom (chiSquareP of
 // inference/tails.h). This is the thesis' test (5.6). It is liberal at such N: at 36 its true size

@@ -10,7 +10,8 @@ namespace obscura {
 // P(X <= b | 1/2 + margin) is P(X >= a | 1/2 - margin): of the two, that of the larger count is
 // the smaller.
 double equivalenceP(Votes votes, double margin) {
-    assert(votes.total() > 0 && margin >= 0 && margin <= 0.5);
+    assert(margin >= 0 && margin <= 0.5);
+    requireVotes(votes);
     return binomialUpper(std::min(votes.a, votes.b), votes.total(), 0.5 - margin);
 }
 

@@ -11,7 +11,7 @@ namespace obscura {
 
 namespace {
 
-constexpr std::int64_t mostPeople = 1'000'000;
+constexpr std::int64_t mostPeople = 1 << 20;
 
 // The first of 0 ... end - 1 that holds, or end; from there on all hold.
 std::int64_t firstOf(std::int64_t end, const std::function<bool(std::int64_t)>& holds) {

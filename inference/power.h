@@ -22,8 +22,8 @@ double power(PofVotes test, std::int64_t n, double share, double level = 0.05);
 double equivalencePower(std::int64_t n, double margin, double share = 0.5, double level = 0.05);
 
 // The smallest n from which on the power never falls below the target again: exact power is a
-// saw-tooth in n. 1/2 <= target < 1. Absent when more than a million people are needed, or when no
-// number is enough (share 1/2; a share outside of 1/2 -+ margin).
+// saw-tooth in n. 1/2 <= target < 1. Absent when more than 2^20 people (a million) are needed, or
+// when no number is enough (share 1/2; a share outside of 1/2 -+ margin).
 std::optional<std::int64_t> sampleSize(PofVotes test, double share, double target = 0.8,
                                        double level = 0.05);
 std::optional<std::int64_t> equivalenceSampleSize(double margin, double share = 0.5,
