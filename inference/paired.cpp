@@ -43,6 +43,8 @@ void checkScores(std::span<const double> scores, std::size_t conditions) {
 struct Totals {
     double a = 0, b = 0;
     double all() const { return a + b; }
+    double share() const { return b / all(); }
+    double variance() const { return a / all() * (b / all()); } // of one vote
 };
 
 Totals totalsOf(std::span<const Votes> conditions) {
@@ -129,12 +131,11 @@ std::optional<Test> homogeneity(std::span<const Votes> conditions) {
                                           [](const Votes& votes) { return votes.total() > 0; }));
     if (used < 2 || totals.a == 0 || totals.b == 0)
         return std::nullopt;
-    const double share = totals.b / totals.all();
     double statistic = 0;
     for (const Votes& votes : conditions)
         if (const auto n = static_cast<double>(votes.total()); n > 0)
             statistic +=
-                square(static_cast<double>(votes.b) - n * share) / (n * share * (1 - share));
+                square(static_cast<double>(votes.b) - n * totals.share()) / (n * totals.variance());
     return chiSquareTest(statistic, used - 1);
 }
 
@@ -143,18 +144,17 @@ std::optional<Test> trend(std::span<const Votes> conditions, std::span<const dou
     const Totals totals = totalsOf(conditions);
     if (totals.a == 0 || totals.b == 0)
         return std::nullopt;
-    const double share = totals.b / totals.all();
     double centre = 0, sum = 0, spread = 0;
     for (std::size_t i = 0; i < scores.size(); ++i)
         centre += static_cast<double>(conditions[i].total()) * scores[i] / totals.all();
     for (std::size_t i = 0; i < scores.size(); ++i) {
         const double x = scores[i] - centre, n = static_cast<double>(conditions[i].total());
-        sum += x * (static_cast<double>(conditions[i].b) - n * share);
+        sum += x * (static_cast<double>(conditions[i].b) - n * totals.share());
         spread += n * square(x);
     }
     if (spread == 0)
         return std::nullopt;
-    return chiSquareTest(square(sum) / (share * (1 - share) * spread), 1);
+    return chiSquareTest(square(sum) / (totals.variance() * spread), 1);
 }
 
 std::optional<MantelHaenszel> mantelHaenszel(std::span<const FourfoldTable> strata) {

@@ -80,6 +80,8 @@ std::optional<Summary> summary(std::span<const double> values) {
 
 std::vector<double> quantiles(std::span<const double> values, std::span<const double> shares) {
     checkFinite(values);
+    if (values.empty())
+        return {};
     Values result;
     for (const double share : shares)
         result.push_back(percentile(copyOf(values), share));

@@ -23,7 +23,7 @@ struct Summary {
 // Absent without values.
 std::optional<Summary> summary(std::span<const double> values);
 
-// Quantiles at shares 0 to 1, Hyndman and Fan's type 7 as R has it; at least one value.
+// Quantiles at shares 0 to 1, Hyndman and Fan's type 7 as R has it; none without values.
 std::vector<double> quantiles(std::span<const double> values, std::span<const double> shares);
 
 // What is to be looked at. A flag never deletes: show results with and without. On the log scale a

@@ -74,6 +74,7 @@ TEST(Robust, FlagsTimesThatCannotBeOnTheLogScale) {
 
 TEST(Robust, SummaryOfFewValues) {
     EXPECT_FALSE(summary({}));
+    EXPECT_TRUE(quantiles({}, std::vector{0.5}).empty());
     const auto one = summary(std::vector{7.0});
     EXPECT_FALSE(one->sd);
     EXPECT_TRUE(one->mean == 7 && one->median == 7 && one->mad == 0 && one->trimmedMean == 7);
