@@ -33,11 +33,17 @@ double changes(const AnswerTable& answers) {
     return total;
 }
 
-void checkScores(std::span<const double> scores, std::size_t conditions) {
+// From `origin`, so that scores which are all the same are exactly 0.
+std::vector<double> scoresFrom(std::size_t origin, std::span<const double> scores,
+                               std::size_t conditions) {
     if (scores.size() != conditions)
         throw Error(fmt::format("expected a score for each of {} conditions, found {}", conditions,
                                 scores.size()));
     checkFinite(scores);
+    std::vector<double> shifted;
+    for (const double score : scores)
+        shifted.push_back(score - scores[origin]);
+    return shifted;
 }
 
 struct Totals {
@@ -112,14 +118,13 @@ std::optional<Test> cochranQ(const AnswerTable& answers) {
 
 std::optional<Test> pairedTrend(const AnswerTable& answers, std::span<const double> scores) {
     const std::vector<double> totals = columnTotals(answers);
-    checkScores(scores, totals.size());
-    const double changed = changes(answers), centre = mean(scores);
-    const double spread = sumOfSquares(scores, centre);
+    const std::vector<double> x = scoresFrom(0, scores, totals.size());
+    const double changed = changes(answers), centre = mean(x), spread = sumOfSquares(x, centre);
     if (changed == 0 || spread == 0)
         return std::nullopt;
     double sum = 0;
     for (std::size_t i = 0; i < totals.size(); ++i)
-        sum += totals[i] * (scores[i] - centre);
+        sum += totals[i] * (x[i] - centre);
     const auto k = static_cast<double>(totals.size());
     return chiSquareTest(square(sum) * k * (k - 1) / (spread * changed), 1);
 }
@@ -140,17 +145,21 @@ std::optional<Test> homogeneity(std::span<const Votes> conditions) {
 }
 
 std::optional<Test> trend(std::span<const Votes> conditions, std::span<const double> scores) {
-    checkScores(scores, conditions.size());
+    const auto first = std::find_if(conditions.begin(), conditions.end(),
+                                    [](Votes votes) { return votes.total() > 0; });
+    const auto origin = first == conditions.end() ? 0 : first - conditions.begin();
+    const std::vector<double> x =
+        scoresFrom(static_cast<std::size_t>(origin), scores, conditions.size());
     const Totals totals = totalsOf(conditions);
     if (totals.a == 0 || totals.b == 0)
         return std::nullopt;
     double centre = 0, sum = 0, spread = 0;
-    for (std::size_t i = 0; i < scores.size(); ++i)
-        centre += static_cast<double>(conditions[i].total()) * scores[i] / totals.all();
-    for (std::size_t i = 0; i < scores.size(); ++i) {
-        const double x = scores[i] - centre, n = static_cast<double>(conditions[i].total());
-        sum += x * (static_cast<double>(conditions[i].b) - n * totals.share());
-        spread += n * square(x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+        centre += static_cast<double>(conditions[i].total()) * x[i] / totals.all();
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const auto n = static_cast<double>(conditions[i].total());
+        sum += (x[i] - centre) * (static_cast<double>(conditions[i].b) - n * totals.share());
+        spread += n * square(x[i] - centre);
     }
     if (spread == 0)
         return std::nullopt;

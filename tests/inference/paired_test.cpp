@@ -113,7 +113,7 @@ TEST(PairedTrend, AndCochranQAreAbsentWhereNothingVaries) {
         EXPECT_FALSE(cochranQ(table));
     EXPECT_FALSE(pairedTrend({{1, 1, 1}, {0, 0, 0}}, scores));
     EXPECT_FALSE(pairedTrend({}, {}));
-    EXPECT_FALSE(pairedTrend({{1, 0, 1}}, std::vector<double>{2, 2, 2}));
+    EXPECT_FALSE(pairedTrend({{1, 0, 1}}, std::vector{0.1, 0.1, 0.1})); // whose mean rounds
     EXPECT_FALSE(cochranQ({{1}, {0}}));
 }
 
@@ -153,6 +153,9 @@ TEST(Totals, AreNotComparedWhereNothingVaries) {
         EXPECT_FALSE(homogeneity(votes));
         EXPECT_FALSE(trend(votes, std::vector<double>(votes.size(), 1.0)));
     }
+    const std::vector<Votes> varied = {{0, 0}, {3, 4}, {1, 9}, {5, 5}};
+    EXPECT_FALSE(trend(varied, std::vector{7, 0.1, 0.1, 0.1}));
+    EXPECT_TRUE(trend(varied, std::vector{7, 0.1, 0.2, 0.1}));
     const std::int64_t many = 1'000'000'000;
     EXPECT_TRUE(std::isfinite(homogeneity(std::vector<Votes>{{many, 1}, {1, many}})->p));
 }

@@ -69,6 +69,10 @@ TEST(Robust, FlagsTimesThatCannotBeOnTheLogScale) {
     EXPECT_THAT(flagged(impossible, FlagRule::madLog), ElementsAre(1, 3));
     EXPECT_THAT(flagged(impossible, FlagRule::sdLog), ElementsAre(1, 3));
     EXPECT_THAT(flagged({0, 0}, FlagRule::madLog), ElementsAre(1, 2));
+    std::vector<double> more = {-5, 0};
+    more.insert(more.end(), times.begin(), times.end());
+    EXPECT_THAT(flagged(more, FlagRule::madLog), ElementsAre(1, 2, 9, 11, 16, 23));
+    EXPECT_THAT(flagged(more, FlagRule::fast), ElementsAre(1, 2, 9, 23));
     EXPECT_FALSE(summary(impossible)->geometricMean);
 }
 
