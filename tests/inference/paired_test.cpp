@@ -154,8 +154,8 @@ TEST(Totals, AreNotComparedWhereNothingVaries) {
         EXPECT_FALSE(trend(votes, std::vector<double>(votes.size(), 1.0)));
     }
     const std::vector<Votes> varied = {{0, 0}, {3, 4}, {1, 9}, {5, 5}};
-    EXPECT_FALSE(trend(varied, std::vector{7, 0.1, 0.1, 0.1}));
-    EXPECT_TRUE(trend(varied, std::vector{7, 0.1, 0.2, 0.1}));
+    EXPECT_FALSE(trend(varied, std::vector{7.0, 0.1, 0.1, 0.1}));
+    EXPECT_TRUE(trend(varied, std::vector{7.0, 0.1, 0.2, 0.1}));
     const std::int64_t many = 1'000'000'000;
     EXPECT_TRUE(std::isfinite(homogeneity(std::vector<Votes>{{many, 1}, {1, many}})->p));
 }
