@@ -14,28 +14,32 @@ const char* const tournament[] = {"1212", "1221", "0213", "1122", "1212", "1212"
                                   "1221", "2121", "1131", "1023", "1122", "0132", "2013", "2202",
                                   "0222", "1122", "0123", "0132", "1032", "2211", "0123", "1221"};
 
-TEST(Agreement, OfTheTournamentIsThatOfR) {
-    std::vector<std::vector<double>> scores;
+std::vector<std::int64_t> winsOf(const char* person) {
+    return {person[0] - '0', person[1] - '0', person[2] - '0', person[3] - '0'};
+}
+
+TEST(CircularTriadsTest, OfTheTournamentAreThoseOfR) {
     std::int64_t triads = 0;
     double zeta = 0;
     for (const char* person : tournament) {
-        std::vector<std::int64_t> wins;
-        for (int i = 0; i < 4; ++i)
-            wins.push_back(person[i] - '0');
-        const auto found = circularTriads(wins);
-        ASSERT_TRUE(found);
-        EXPECT_EQ(found->most, 2);
-        triads += found->triads, zeta += found->zeta / 24;
-        scores.emplace_back(wins.begin(), wins.end());
+        const CircularTriads found = circularTriads(winsOf(person)).value();
+        EXPECT_EQ(found.most, 2);
+        triads += found.triads, zeta += found.zeta / 24;
     }
     EXPECT_EQ(triads, 25);
     EXPECT_NEAR(zeta, 0.479167, 5e-7);
-    const auto found = concordance(scores);
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(found->w, 0.246359223301, 1e-12);
-    EXPECT_NEAR(found->friedman.statistic.value(), 17.7378640777, 1e-10);
-    EXPECT_EQ(found->friedman.df, 3);
-    EXPECT_NEAR(found->friedman.p, 0.000498136648414, 1e-14);
+}
+
+TEST(ConcordanceTest, OfTheTournamentIsThatOfR) {
+    std::vector<std::vector<double>> scores(24);
+    for (std::size_t i = 0; i < 24; ++i)
+        for (const std::int64_t wins : winsOf(tournament[i]))
+            scores[i].push_back(static_cast<double>(wins));
+    const Concordance found = concordance(scores).value();
+    EXPECT_NEAR(found.w, 0.246359223301, 1e-12);
+    EXPECT_NEAR(found.friedman.statistic.value(), 17.7378640777, 1e-10);
+    EXPECT_EQ(found.friedman.df, 3);
+    EXPECT_NEAR(found.friedman.p, 0.000498136648414, 1e-14);
 }
 
 // golden/tournament_matrix.csv; golden output D5.
@@ -64,28 +68,34 @@ TEST(KendallU, IsAbsentForOnePersonAndUnequalPairs) {
     EXPECT_THROW(kendallU({{0, 1}, {0}}), Error);
 }
 
-// Triples, counted.
-TEST(CircularTriadsTest, AreThoseOfAllTournamentsOfFive) {
-    constexpr int t = 5;
-    for (int code = 0; code < 1024; ++code) {
-        bool beats[t][t] = {};
-        std::vector<std::int64_t> wins(t);
-        for (int i = 0, bit = 0; i < t; ++i)
-            for (int j = i + 1; j < t; ++j, ++bit) {
-                const bool first = code >> bit & 1;
-                beats[i][j] = first, beats[j][i] = !first;
-                ++wins[first ? i : j];
+// All tournaments of five items: bit by bit who wins, and the circular among the ten triples.
+struct Tournament {
+    explicit Tournament(int code) {
+        for (int i = 0; i < 5; ++i)
+            for (int j = i + 1; j < 5; ++j, code /= 2) {
+                beats[i][j] = code % 2 != 0, beats[j][i] = !beats[i][j];
+                ++wins[beats[i][j] ? i : j];
             }
-        int circular = 0;
-        for (int i = 0; i < t; ++i)
-            for (int j = i + 1; j < t; ++j)
-                for (int k = j + 1; k < t; ++k)
-                    circular += beats[i][j] == beats[j][k] && beats[j][k] == beats[k][i];
-        const auto found = circularTriads(wins);
-        ASSERT_TRUE(found);
-        EXPECT_EQ(found->triads, circular);
-        EXPECT_EQ(found->most, 5);
-        EXPECT_NEAR(found->zeta, 1 - circular / 5.0, 1e-15);
+    }
+    int circular() const {
+        int count = 0;
+        for (int i = 0; i < 5; ++i)
+            for (int j = i + 1; j < 5; ++j)
+                for (int k = j + 1; k < 5; ++k)
+                    count += beats[i][j] == beats[j][k] && beats[j][k] == beats[k][i];
+        return count;
+    }
+    bool beats[5][5] = {};
+    std::vector<std::int64_t> wins = {0, 0, 0, 0, 0};
+};
+
+TEST(CircularTriadsTest, AreThoseOfAllTournamentsOfFive) {
+    for (int code = 0; code < 1024; ++code) {
+        const Tournament all(code);
+        const CircularTriads found = circularTriads(all.wins).value();
+        EXPECT_EQ(found.triads, all.circular());
+        EXPECT_EQ(found.most, 5);
+        EXPECT_NEAR(found.zeta, 1 - all.circular() / 5.0, 1e-15);
     }
 }
 
@@ -140,6 +150,9 @@ TEST(VarianceRatioTest, TellsCampsFromBalancedAnswers) {
     EXPECT_GT(betweenPersonVarianceRatio(camps)->ratio, 4);
     EXPECT_EQ(betweenPersonVarianceRatio(balanced)->ratio, 0);
     EXPECT_EQ(betweenPersonVarianceRatio(balanced)->test.p, 1);
+}
+
+TEST(VarianceRatioTest, IsAbsentWhereNothingVaries) {
     EXPECT_FALSE(betweenPersonVarianceRatio({}));
     EXPECT_FALSE(betweenPersonVarianceRatio({{1, 0}}));
     EXPECT_FALSE(betweenPersonVarianceRatio({{1, 0}, {1, 0}}));

@@ -17,31 +17,28 @@ TEST(Fisher, IsThatOfR) {
                 0.139239638366917, 1e-11);
 }
 
-// Against going through all tables of three conditions.
+double choose(int n, int k) {
+    return std::round(std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1)));
+}
+
+double weight(int x, int y, int z) { return choose(5, x) * choose(9, y) * choose(3, z); }
+
+double sumOfAllTables(int b, double seen) {
+    double total = 0;
+    for (int x = 0; x <= 5; ++x)
+        for (int y = 0; y <= 9; ++y)
+            if (const int z = b - x - y; z >= 0 && z <= 3)
+                if (const double table = weight(x, y, z); table <= seen * (1 + 1e-7))
+                    total += table;
+    return total / choose(17, b);
+}
+
 TEST(Fisher, IsTheSumOfAllTablesNoLikelier) {
-    const auto choose = [](int n, int k) {
-        return std::round(
-            std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1)));
-    };
-    const int n[] = {5, 9, 3};
-    for (int x = 0; x <= n[0]; ++x)
-        for (int y = 0; y <= n[1]; ++y)
-            for (int z = 0; z <= n[2]; ++z) {
-                const int sum = x + y + z;
-                if (sum == 0 || sum == 17)
-                    continue;
-                const double seen = choose(n[0], x) * choose(n[1], y) * choose(n[2], z);
-                double total = 0;
-                for (int i = 0; i <= n[0]; ++i)
-                    for (int j = 0; j <= n[1]; ++j)
-                        if (const int k = sum - i - j; k >= 0 && k <= n[2]) {
-                            const double other =
-                                choose(n[0], i) * choose(n[1], j) * choose(n[2], k);
-                            total += other <= seen * (1 + 1e-7) ? other : 0;
-                        }
-                EXPECT_NEAR(p({{n[0] - x, x}, {n[1] - y, y}, {n[2] - z, z}}),
-                            total / choose(17, sum), 1e-12);
-            }
+    for (int x = 0; x <= 5; ++x)
+        for (int y = 0; y <= 9; ++y)
+            for (int z = x + y == 0 ? 1 : 0; z <= (x + y == 14 ? 2 : 3); ++z)
+                EXPECT_NEAR(p({{5 - x, x}, {9 - y, y}, {3 - z, z}}),
+                            sumOfAllTables(x + y + z, weight(x, y, z)), 1e-12);
 }
 
 // The second and third by Python's fractions, for R has ten digits: 1.98999514009857e-18.

@@ -80,6 +80,9 @@ TEST(SampleSize, IsTheOneBehindTheLastTooth) {
                         sampleSize(test, share, target, level),
                         lastingSize([&](int n) { return power(test, n, share, level); }, target))
                         << share << ' ' << target << ' ' << level;
+}
+
+TEST(SampleSize, OfEquivalenceIsTheOneBehindTheLastTooth) {
     for (const double margin : {0.12, 0.2, 0.5})
         for (const double share : {0.5, 0.47, 0.55})
             for (const double target : {0.5, 0.8, 0.99})
