@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "tests/inference/matrices.h"
 
-#include "inference/ranks.h"
+#include "inference/plackett_luce.h"
 #include "inference/ties.h"
 
 namespace obscura {
