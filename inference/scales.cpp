@@ -3,8 +3,8 @@
 #include "base/error.h"
 
 #include "inference/glm.h"
+#include "inference/tails.h"
 #include <Eigen/Cholesky>
-#include <boost/math/special_functions/gamma.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -133,7 +133,7 @@ std::optional<Scale> pairScale(const Wins& wins, Link link, std::optional<double
 }
 
 Test chiSquareTest(double statistic, int freedom) {
-    return {statistic, freedom, boost::math::gamma_q(freedom / 2.0, statistic / 2)};
+    return {statistic, freedom, chiSquareP(statistic, freedom)};
 }
 
 void checkItem(const Scale& scale, int item) {
@@ -251,7 +251,7 @@ Test differenceTest(const Scale& scale, int item, int other) {
         throw Error(fmt::format("expected two items to compare, found item {} twice", item));
     const Estimate estimate = difference(scale, item, other);
     const double z = estimate.value / estimate.standardError;
-    return {z, {}, std::erfc(std::abs(z) / std::numbers::sqrt2)};
+    return {z, {}, normalP(z)};
 }
 
 std::optional<Test> fitTest(const Scale& scale) {
