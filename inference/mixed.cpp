@@ -108,7 +108,8 @@ class LogisticPersons : public BinomialPersons {
     bool setParameters(const VectorXd& coefficients) override {
         if (!BinomialPersons::setParameters(coefficients))
             return false;
-        odds_ = predictor_.array().max(-limit).min(limit).exp();
+        predictor_ = predictor_.cwiseMax(-limit).cwiseMin(limit);
+        odds_ = predictor_.array().exp();
         return true;
     }
 
@@ -128,7 +129,8 @@ class LogisticPersons : public BinomialPersons {
 
     void atNodes(int person, const ArrayXd& shifts, ArrayXd& values, ArrayXd& slopes) override {
         const Index nodes = shifts.size();
-        factors_ = shifts.max(-limit).min(limit).exp();
+        bounded_ = shifts.max(-limit).min(limit);
+        factors_ = bounded_.exp();
         values.setZero(nodes);
         slopes.setZero(nodes);
         resizeNodeSlopes(nodes, first(person + 1) - first(person));
@@ -155,7 +157,7 @@ class LogisticPersons : public BinomialPersons {
                 values -= trials(i) * sum_.log();
             }
         }
-        values += chosenPredictor + chosen * shifts - product_.log();
+        values += chosenPredictor + chosen * bounded_ - product_.log();
     }
 
   protected:
@@ -170,7 +172,7 @@ class LogisticPersons : public BinomialPersons {
 
   private:
     static constexpr double limit = 340; // so that a product of two exponentials is finite
-    ArrayXd odds_, factors_, sum_, product_;
+    ArrayXd odds_, bounded_, factors_, sum_, product_;
 };
 
 // Whether the rows can tell how people differ: several people, and one with two trials or more.
@@ -203,7 +205,7 @@ Maximum maximiseMixed(RandomIntercept& likelihood, const GlmFit& plain, int pers
     covariance(columns, columns) = 1.0 / persons;
     return maximise(
         [&](const VectorXd& x, VectorXd& gradient) {
-            if (std::abs(x[columns]) > 10 * largestSd)
+            if (std::abs(x[columns]) > 2 * largestSd)
                 return -std::numeric_limits<double>::infinity();
             return likelihood(x, gradient);
         },

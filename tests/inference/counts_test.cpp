@@ -1,7 +1,7 @@
-#include "inference/counts.h"
 #include "base/csv.h"
 #include "base/files.h"
 
+#include "inference/counts.h"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
