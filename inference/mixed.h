@@ -17,11 +17,11 @@ struct MixedOptions {
 
 struct MixedFit {
     Eigen::VectorXd coefficients;
-    Eigen::MatrixXd covariance;    // from the second derivative by coefficients and sd together
-    double sd = 0;                 // between people, in units of the linear predictor; >= 0
+    Eigen::MatrixXd covariance;      // from the second derivative by coefficients and sd together
+    double sd = 0;                   // between people, in units of the linear predictor; >= 0
     std::optional<double> sdError{}; // absent where sd = 0 or the maximum is not finite
-    double logLikelihood = 0;      // with the binomial coefficients
-    Eigen::VectorXd persons;       // each person's most likely b
+    double logLikelihood = 0;        // with the binomial coefficients
+    Eigen::VectorXd persons;         // each person's most likely b
     bool converged = false;
     // People do not differ more than chance: the best sd is 0 and the fit is fitGlm's.
     bool boundary = false;

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace obscura {
@@ -59,7 +60,7 @@ void updateInverse(MatrixXd& inverse, const VectorXd& step, const VectorXd& fall
 void quasiNewton(Climber& climber, MatrixXd inverse) {
     for (int i = 0; i < 200; ++i) {
         const VectorXd step = inverse * climber.gradient;
-        if (climber.gradient.dot(step) < 1e-8)
+        if (climber.gradient.dot(step) < 1e-12)
             return;
         const VectorXd before = climber.x, slope = climber.gradient;
         if (!climber.moveAlong(step))
@@ -95,7 +96,7 @@ Maximum maximise(const Objective& objective, const VectorXd& start, const Matrix
     climber.value = climber.evaluate(start, climber.gradient);
     quasiNewton(climber, covariance);
     Maximum result{.at = {}, .covariance = covariance};
-    for (int i = 0; i < 20 && !result.reached; ++i) {
+    for (int i = 0; i < 10 && !result.reached; ++i) {
         const MatrixXd curvature = information(climber, result.covariance);
         const Eigen::LDLT<MatrixXd> factor(curvature);
         if (!curvature.allFinite() || !factor.isPositive() || factor.vectorD().minCoeff() <= 0)
@@ -105,8 +106,13 @@ Maximum maximise(const Objective& objective, const VectorXd& start, const Matrix
         const double gain = climber.gradient.dot(step);
         if (!climber.moveAlong(step))
             break;
-        // Near the maximum the error of a Newton step is the square of the step.
-        result.reached = gain < 1e-8;
+        // Near a maximum one step leaves the square of the slope. On the way to infinity, where the
+        // likelihood flattens exponentially, it leaves a fixed part of it, and the curvature is
+        // nil.
+        const double left = climber.gradient.dot(factor.solve(climber.gradient));
+        const bool flat =
+            (result.covariance.diagonal().array() > 1e6 * covariance.diagonal().array()).any();
+        result.reached = gain < 1e-8 && left < std::max(1e-2 * gain, 1e-16) && !flat;
     }
     result.at = climber.x;
     result.value = climber.value;

@@ -1,11 +1,11 @@
 #include "base/error.h"
+#include "tests/inference/simulated_people.h"
 #include "tests/inference/trials_28x7.h"
 
 #include "inference/mixed.h"
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdint>
 #include <vector>
 
 namespace obscura {
@@ -14,46 +14,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-// Simulated people that R makes too: the generator of Park and Miller; person i answers rows(i)
-// times, u01() < plogis(b0 + b1 x + sd qnorm(u01())), x = round(4 u01() - 2, 1).
-class Simulation {
-  public:
-    explicit Simulation(std::uint64_t seed) : state_(seed) {}
-    double uniform() {
-        state_ = state_ * 16807 % 2147483647;
-        return static_cast<double>(state_) / 2147483647;
-    }
-
-  private:
-    std::uint64_t state_;
-};
-
-template <typename Rows>
-Study simulate(int persons, Rows rowsOf, double sd, double b0, double b1, std::uint64_t seed) {
-    Simulation random(seed);
-    std::vector<double> x, y;
-    Study study;
-    for (int i = 0; i < persons; ++i) {
-        const double b = sd * quantile(Link::probit, random.uniform());
-        for (int j = 0; j < rowsOf(i); ++j) {
-            x.push_back(std::round((4 * random.uniform() - 2) * 10) / 10);
-            const double share = distribution(Link::logit, b0 + b1 * x.back() + b).below;
-            y.push_back(random.uniform() < share ? 1 : 0);
-            study.person.push_back(i);
-        }
-    }
-    const auto n = static_cast<Index>(x.size());
-    study.data.design.resize(n, 2);
-    study.data.design.col(0).setOnes();
-    study.data.design.col(1) = VectorXd::Map(x.data(), n);
-    study.data.successes = VectorXd::Map(y.data(), n);
-    study.data.trials.setOnes(n);
-    return study;
-}
-
-int unequal(int person) { return 1 + person * 7 % 9; }
-Study unbalanced() { return simulate(20, unequal, 1.5, 0.3, 0.8, 4242); }
 
 // lme4 1.1-31, glmerControl("bobyqa", optCtrl = list(rhobeg = .2, rhoend = 1e-9), tolPwrss = 1e-12)
 struct Expected {
@@ -106,7 +66,7 @@ TEST(Mixed, GoldenLevelsEqualLme4) {
 }
 
 TEST(Mixed, UnbalancedLogitEqualsLme4) {
-    const Study study = unbalanced();
+    const Study study = unbalancedPeople();
     ASSERT_EQ(study.data.successes.sum(), 71);
     ASSERT_NEAR(study.data.design.col(1).sum(), 1.7, 1e-12);
     expectFit(fitMixed(study.data, study.person, {.points = 1}),
@@ -133,7 +93,7 @@ TEST(Mixed, UnbalancedLogitEqualsLme4) {
 }
 
 TEST(Mixed, UnbalancedProbitEqualsLme4) {
-    const Study study = unbalanced();
+    const Study study = unbalancedPeople();
     expectFit(fitMixed(study.data, study.person, {.link = Link::probit, .points = 1}),
               {{0.606679385014922, 0.0831946521927541},
                {0.181397786525329, 0.133268009198685},
@@ -150,7 +110,7 @@ TEST(Mixed, UnbalancedProbitEqualsLme4) {
 
 // R's integrate() over each person and optim() give what many points must converge to.
 TEST(Mixed, ManyPointsGiveTheIntegral) {
-    const Study study = unbalanced();
+    const Study study = unbalancedPeople();
     const MixedFit fit = fitMixed(study.data, study.person, {.points = 40});
     EXPECT_NEAR(fit.coefficients[0], 0.991814926251, 1e-6);
     EXPECT_NEAR(fit.coefficients[1], 0.153886156554, 1e-6);
@@ -159,7 +119,7 @@ TEST(Mixed, ManyPointsGiveTheIntegral) {
 }
 
 TEST(Mixed, HugeVarianceEqualsLme4) {
-    const Study study = simulate(
+    const Study study = simulatePeople(
         25, [](int) { return 12; }, 8, 1, 2, 99);
     ASSERT_EQ(study.data.successes.sum(), 136);
     expectFit(fitMixed(study.data, study.person),
@@ -172,7 +132,7 @@ TEST(Mixed, HugeVarianceEqualsLme4) {
 
 // R: glmer gives sd 0 (singular) and glm's fit.
 TEST(Mixed, PeopleWhoDoNotDifferGiveTheLogisticFit) {
-    const Study study = simulate(14, unequal, 1.2, 0.3, 0.8, 12345);
+    const Study study = simulatePeople(14, unequalRows, 1.2, 0.3, 0.8, 12345);
     ASSERT_EQ(study.data.successes.sum(), 28);
     for (const int points : {1, 15}) {
         const MixedFit fit = fitMixed(study.data, study.person, {.points = points});
@@ -215,7 +175,7 @@ void expectFinite(const MixedFit& fit) {
 }
 
 TEST(Mixed, OnePersonOrOneTrialEachIsTheLogisticFit) {
-    Study study = unbalanced();
+    Study study = unbalancedPeople();
     const GlmFit plain = fitGlm(study.data);
     std::vector<int> single(study.person.size(), 0), each;
     for (int i = 0; i < static_cast<int>(study.person.size()); ++i)
@@ -232,7 +192,7 @@ TEST(Mixed, OnePersonOrOneTrialEachIsTheLogisticFit) {
 TEST(Mixed, SeparatedDataAreSaidAndFinite) {
     for (const Link link : {Link::logit, Link::probit})
         for (const int points : {1, 15}) {
-            Study study = unbalanced();
+            Study study = unbalancedPeople();
             // All answers beyond x = 0.55 are yes, all others no.
             study.data.successes = (study.data.design.col(1).array() > 0.55).cast<double>();
             MixedFit fit = fitMixed(study.data, study.person, {.link = link, .points = points});
@@ -255,7 +215,7 @@ TEST(Mixed, SeparatedDataAreSaidAndFinite) {
 }
 
 TEST(Mixed, WrongInputIsNamed) {
-    Study study = unbalanced();
+    Study study = unbalancedPeople();
     study.person.pop_back();
     EXPECT_THROW(fitMixed(study.data, study.person), Error);
     study.person.push_back(-1);
