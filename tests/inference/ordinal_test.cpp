@@ -47,13 +47,14 @@ Ratings unequalRatings() { return simulateRatings(20, 1.2, 0.7, 4242); }
 
 // Thresholds and coefficient; their standard errors.
 void expectFit(const OrdinalFit& fit, const std::vector<double>& values,
-               const std::vector<double>& errors, double logLikelihood, double tolerance) {
+               const std::vector<double>& errors, double logLikelihood, double tolerance,
+               double errorTolerance) {
     EXPECT_TRUE(fit.converged);
     ASSERT_EQ(fit.thresholds.size(), 3);
     for (Index i = 0; i < 4; ++i) {
         const auto at = static_cast<std::size_t>(i);
         EXPECT_NEAR(i < 3 ? fit.thresholds[i] : fit.coefficients[0], values[at], tolerance) << i;
-        EXPECT_NEAR(std::sqrt(fit.covariance(i, i)), errors[at], 3 * tolerance + 1e-8) << i;
+        EXPECT_NEAR(std::sqrt(fit.covariance(i, i)), errors[at], errorTolerance) << i;
     }
     EXPECT_NEAR(fit.logLikelihood, logLikelihood, tolerance);
 }
@@ -65,11 +66,11 @@ TEST(Ordinal, EqualsClm) {
     expectFit(fitOrdinal(ratings.data),
               {-2.003564556929, -0.9744116534647, 0.3123393195766, 0.6038444525431},
               {0.3052766963254, 0.2331715417773, 0.212872333987, 0.1758066451775}, -121.4091937217,
-              1e-9);
+              1e-9, 5e-8);
     expectFit(fitOrdinal(ratings.data, Link::probit),
               {-1.142859499744, -0.5678795578542, 0.2011029847412, 0.3290071717298},
               {0.1602041465598, 0.1368481000133, 0.1305996872686, 0.1026464907672}, -122.3846126921,
-              1e-9);
+              1e-9, 5e-8);
 }
 
 // clmm(y ~ x + (1 | p), link, nAGQ, control = clmm.control(gradTol = 1e-8)). Its last standard
@@ -78,25 +79,25 @@ TEST(Ordinal, MixedEqualsClmm) {
     const Ratings ratings = unequalRatings();
     OrdinalMixedFit fit = fitOrdinalMixed(ratings.data, ratings.person, Link::logit, 1);
     expectFit(fit, {-2.25952918372, -0.9591746183529, 0.6751905825362, 0.8203125465222},
-              {0.504494127257, 0.4466002085271, 0.4517653343151, 0.2254180870683}, -116.3751118246,
-              6e-5);
+              {0.5034663811429, 0.4455026452141, 0.4497243660291, 0.2251867458895}, -116.3751118246,
+              6e-5, 2e-4);
     EXPECT_NEAR(fit.sd, 1.503694529703, 6e-5);
-    EXPECT_NEAR(fit.sdError.value_or(0), 0.3306037430384 * fit.sd, 1e-4);
+    EXPECT_NEAR(fit.sdError.value_or(0), 0.3303069072427 * fit.sd, 1e-4);
     fit = fitOrdinalMixed(ratings.data, ratings.person);
     expectFit(fit, {-2.261912926777, -0.9520361948955, 0.6901957682715, 0.8275503777471},
               {0.5152366392931, 0.4593891069592, 0.4646416546108, 0.2264984698891}, -116.0909160892,
-              6e-5);
+              6e-5, 2e-4);
     EXPECT_NEAR(fit.sd, 1.57549390101, 6e-5);
     EXPECT_NEAR(fit.sdError.value_or(0), 0.3347787104248 * fit.sd, 1e-4);
     fit = fitOrdinalMixed(ratings.data, ratings.person, Link::probit, 1);
     expectFit(fit, {-1.312396865578, -0.5575470202291, 0.4095128681145, 0.4693920845941},
               {0.2896755589309, 0.2656685468382, 0.2677887459211, 0.1277949933373}, -116.0656748046,
-              6e-5);
+              6e-5, 2e-4);
     EXPECT_NEAR(fit.sd, 0.9221246416873, 6e-5);
     fit = fitOrdinalMixed(ratings.data, ratings.person, Link::probit);
     expectFit(fit, {-1.313248533655, -0.5571517949438, 0.411052200752, 0.4703020801249},
               {0.2911925498368, 0.2672680731443, 0.2692785013196, 0.1278552246426}, -116.0153638587,
-              6e-5);
+              6e-5, 2e-4);
 }
 
 // R's integrate() over each person and optim() say the same more exactly than clmm.
@@ -105,12 +106,12 @@ TEST(Ordinal, ManyPointsGiveTheIntegral) {
     OrdinalMixedFit fit = fitOrdinalMixed(ratings.data, ratings.person, Link::logit, 40);
     expectFit(fit, {-2.261922425862, -0.9520405873445, 0.6901799135732, 0.8275450221497},
               {0.5152324156189, 0.4593826844575, 0.4646344351558, 0.2264977635957}, -116.0909162625,
-              2e-6);
+              2e-6, 2e-6);
     EXPECT_NEAR(fit.sd, 1.575464151761, 2e-6);
     fit = fitOrdinalMixed(ratings.data, ratings.person, Link::probit, 40);
     expectFit(fit, {-1.313250224409, -0.5571520946749, 0.4110492671062, 0.4703024696124},
               {0.2911925602122, 0.2672678339504, 0.269278129753, 0.1278552311383}, -116.0153638477,
-              2e-6);
+              2e-6, 2e-6);
     EXPECT_NEAR(fit.sd, 0.9307452709767, 2e-6);
 }
 
