@@ -47,6 +47,7 @@ class Setter {
     void warning(const std::string& text);
     void paragraph(const std::string& text, double size, bool bold = false);
     void title(const std::string& text, double size, bool bold); // each line in the middle
+    void facts(const std::vector<Page::Fact>& facts); // names at the left, values beside them
     Box field(const Page::Field& field);
     Box slider(const Page::Slider& slider);
     std::vector<Box> pictures(const Page::Pictures& pictures);

@@ -138,14 +138,19 @@ void checkRoles(const Condition& condition, const Protocol& protocol, const Plac
     }
 }
 
-// What the phases show must be there.
+// What the phases show must be there, and what images are boosted against.
 void checkShown(const Condition& condition, const Protocol& protocol, const Place& place) {
-    for (const std::string& role : rolesOf(protocol.trial))
+    std::set<std::string> needed = rolesOf(protocol.trial);
+    if (protocol.boost)
+        needed.insert(protocol.boost->reference);
+    for (const std::string& role : needed)
         if (std::none_of(condition.roles.begin(), condition.roles.end(),
                          [&](const Role& each) { return each.name == role; }))
-            throw Error(place, fmt::format("expected an image \"{}\", which the trial shows, found "
-                                           "none",
-                                           role));
+            throw Error(place,
+                        fmt::format("expected an image \"{}\", which the {}, found none", role,
+                                    rolesOf(protocol.trial).contains(role)
+                                        ? "trial shows"
+                                        : "others are boosted against"));
 }
 
 void parsePair(TomlTable& table, const toml::node& pair, Condition& condition,
@@ -246,7 +251,14 @@ void checkProgress(const std::string& text, const Place& place) {
                                        text));
 }
 
-// Every text of the program's own, and those that the trial's phases name besides.
+std::set<std::string> textsOf(const Protocol& protocol) {
+    std::set<std::string> keys = textsOf(phasesOf(protocol.trial));
+    keys.merge(textsOf(protocol.before));
+    keys.merge(textsOf(protocol.after));
+    return keys;
+}
+
+// Every text of the program's own, and those that phases and pages name besides.
 Texts parseTexts(TomlTable table, std::set<std::string> named) {
     Texts texts;
     for (const TextKey& key : textKeys()) {
@@ -264,6 +276,17 @@ Texts parseTexts(TomlTable table, std::set<std::string> named) {
     table.finish();
     checkProgress(texts.progress, texts.places["progress"]);
     return texts;
+}
+
+// Where another key than Space goes on, the texts that the study has not written name it.
+void nameGo(const Keys& keys, Texts& texts) {
+    if (keys.go.front() == Keys().go.front())
+        return;
+    const std::string cap = capOf(keys.go.front());
+    if (!texts.places.contains("space"))
+        texts.space = cap;
+    if (!texts.places.contains("rest"))
+        texts.rest = fmt::format("Take a break. Press {} to go on.", texts.space);
 }
 
 ExGaussian parseTime(std::optional<TomlTable> table, ExGaussian fallback) {
@@ -310,12 +333,22 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     includedSha256 = techniques.includedSha256;
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
+    if (auto boost = root.table("boost"))
+        protocol.boost =
+            parseBoost(std::move(*boost), protocol.width, protocol.height, protocol.views);
     parseConditions(root, protocol);
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
                                           questionsOf(phasesOf(protocol.trial)));
-    protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"),
-                                textsOf(phasesOf(protocol.trial)));
+    if (auto screen = root.table("screen"))
+        protocol.screen = parseScreenNeeds(std::move(*screen));
+    if (auto keys = root.table("keys"))
+        protocol.keys = parseKeys(std::move(*keys));
+    protocol.before = parsePages(root, "before");
+    protocol.after = parsePages(root, "after");
+    protocol.texts =
+        parseTexts(root.requiredTable("texts", "what participants read"), textsOf(protocol));
+    nameGo(protocol.keys, protocol.texts);
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();
@@ -344,6 +377,7 @@ std::span<const TextKey> textKeys() {
         {"leaveNote", &Texts::leaveNote},
         {"stay", &Texts::stay},
         {"end", &Texts::end},
+        {"declined", &Texts::declined},
         {"rest", &Texts::rest},
         {"id", &Texts::id},
         {"idNote", &Texts::idNote},

@@ -181,9 +181,13 @@ TEST(Text, TheShippedProtocolsFitTheirScreens) {
             continue;
         ++found;
         const Protocol protocol = readProtocol(entry.path());
-        for (Page page : {instructionsPage(protocol.texts), startPage(protocol.texts, 7, 7),
-                          questionPage(protocol.texts), leavePage(protocol.texts),
-                          thanksPage(protocol.texts)}) {
+        std::vector<Page> pages = {
+            instructionsPage(protocol.texts), startPage(protocol.texts, 7, 7),
+            questionPage(protocol.texts),     leavePage(protocol.texts),
+            thanksPage(protocol.texts),       declinedPage(protocol.texts)};
+        for (const Phase& page : protocol.before)
+            pages.push_back(formPage(protocol.texts, Form(page.questions, 0), {}, page.text));
+        for (Page& page : pages) {
             page.warning = "Untimed display: not suitable for data collection";
             EXPECT_NO_THROW(drawPage(unfocused(page, protocol.texts), protocol.width,
                                      protocol.height, protocol.trial.grey))
