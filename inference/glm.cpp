@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -234,6 +235,14 @@ MatrixXd clusterCovariance(const BinomialData& data, const GlmFit& fit, Link lin
             evidence(link, predictor[i], data.successes[i], data.trials[i]).slope *
             data.design.row(i);
     return fit.covariance * (scores.transpose() * scores) * fit.covariance;
+}
+
+Test likelihoodRatio(double smaller, double larger, int df) {
+    const double statistic = std::max(0.0, 2 * (larger - smaller));
+    const boost::math::chi_squared reference(df);
+    return {.statistic = statistic,
+            .df = df,
+            .p = boost::math::cdf(boost::math::complement(reference, statistic))};
 }
 
 } // namespace obscura

@@ -36,8 +36,10 @@ struct MixedFit {
 // quadrature (expected information at the mode) it shares, so that Laplace's approximation agrees
 // for probit too. lme4 stops at 1e-5 or so; here the gradient is exact and zero to 1e-7 standard
 // errors. `person` numbers each row's person from 0; equal rows of a person are fitted as one, so
-// 100,000 rows of 14 kinds cost what 14 rows a person do. Every number is finite in every case.
-// Error as fitGlm, or when `person` does not fit.
+// 100,000 rows of 14 kinds cost what 14 rows a person do. Where the likelihood has several hills
+// (few people whose sd is large; Laplace's approximation of it, which is then poor) the one found
+// is near sd = 1, as lme4's. Every number is finite in every case. Error as fitGlm, or when
+// `person` does not fit.
 MixedFit fitMixed(const BinomialData& data, std::span<const int> person,
                   const MixedOptions& options = {});
 

@@ -53,7 +53,12 @@ TEST(Mixed, GoldenStudyEqualsLme4) {
                -123.540381202},
               2e-7, 2e-6);
     const Study null = withoutConditions(study);
-    EXPECT_NEAR(fitMixed(null.data, null.person).logLikelihood, -130.6752068332, 1e-8);
+    const MixedFit without = fitMixed(null.data, null.person);
+    EXPECT_NEAR(without.logLikelihood, -130.6752068332, 1e-8);
+    const Test test =
+        likelihoodRatio(without.logLikelihood, fitMixed(study.data, study.person).logLikelihood, 6);
+    EXPECT_NEAR(test.statistic.value_or(0), 14.3765, 1e-4);
+    EXPECT_NEAR(test.p, 0.02570, 1e-5);
 }
 
 // H3: does the level matter for the Crytek pairs?
@@ -62,7 +67,9 @@ TEST(Mixed, GoldenLevelsEqualLme4) {
     const MixedFit fit = fitMixed(study.data, study.person);
     EXPECT_NEAR(fit.sd, 1.787210415458, 1e-6);
     EXPECT_NEAR(fit.logLikelihood, -50.48809401683, 1e-8);
-    EXPECT_NEAR(fitMixed(null.data, null.person).logLikelihood, -54.01390654397, 1e-8);
+    const double without = fitMixed(null.data, null.person).logLikelihood;
+    EXPECT_NEAR(without, -54.01390654397, 1e-8);
+    EXPECT_NEAR(likelihoodRatio(without, fit.logLikelihood, 2).p, 0.02943, 1e-5);
 }
 
 TEST(Mixed, UnbalancedLogitEqualsLme4) {
