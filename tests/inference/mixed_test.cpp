@@ -55,7 +55,7 @@ TEST(Mixed, GoldenStudyEqualsLme4) {
     const Study null = withoutConditions(study);
     const MixedFit without = fitMixed(null.data, null.person);
     EXPECT_NEAR(without.logLikelihood, -130.6752068332, 1e-8);
-    const Test test =
+    const auto test =
         likelihoodRatio(without.logLikelihood, fitMixed(study.data, study.person).logLikelihood, 6);
     EXPECT_NEAR(test.statistic.value_or(0), 14.3765, 1e-4);
     EXPECT_NEAR(test.p, 0.02570, 1e-5);
