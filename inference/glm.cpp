@@ -89,8 +89,8 @@ class Fitter {
 // full step an ascent direction; it is too long only far from the maximum.
 double climb(const Fitter& fitter, VectorXd& coefficients, Point& point, const VectorXd& step) {
     const double slack = 1e-12 * (1 + std::abs(point.value));
-    for (double part = 1; part > 1e-6; part /= 2) {
-        const VectorXd next = coefficients + part * step;
+    for (int halvings = 0; halvings < 20; ++halvings) {
+        const VectorXd next = coefficients + std::ldexp(1.0, -halvings) * step;
         Point there = fitter.at(next);
         if (there.value >= point.value - slack) {
             const double gain = there.value - point.value;

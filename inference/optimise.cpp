@@ -32,7 +32,8 @@ struct Climber {
     bool moveAlong(const VectorXd& step) {
         const double promised = gradient.dot(step), noise = 1e-13 * (1 + std::abs(value));
         VectorXd there(x.size());
-        for (double part = 1; part > 1e-10; part /= 2) {
+        for (int halvings = 0; halvings < 33; ++halvings) {
+            const double part = std::ldexp(1.0, -halvings);
             const VectorXd next = x + part * step;
             const double reached = evaluate(next, there);
             if (std::isfinite(reached) && there.allFinite() &&
@@ -106,13 +107,10 @@ Maximum maximise(const Objective& objective, const VectorXd& start, const Matrix
         const double gain = climber.gradient.dot(step);
         if (!climber.moveAlong(step))
             break;
-        // Near a maximum one step leaves the square of the slope. On the way to infinity, where the
-        // likelihood flattens exponentially, it leaves a fixed part of it, and the curvature is
-        // nil.
-        const double left = climber.gradient.dot(factor.solve(climber.gradient));
+        // On the way to infinity the likelihood flattens until nothing is left to gain.
         const bool flat =
             (result.covariance.diagonal().array() > 1e6 * covariance.diagonal().array()).any();
-        result.reached = gain < 1e-8 && left < std::max(1e-2 * gain, 1e-16) && !flat;
+        result.reached = gain < 1e-8 && !flat;
     }
     result.at = climber.x;
     result.value = climber.value;

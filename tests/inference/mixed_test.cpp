@@ -221,6 +221,22 @@ TEST(Mixed, SeparatedDataAreSaidAndFinite) {
         }
 }
 
+// Everybody agrees on the fifth condition: its coefficient is infinite, the rest is as without it.
+TEST(Mixed, OneUnanimousConditionLeavesTheOthers) {
+    Study study = trials28x7({1, 3, 6, 5});
+    for (Index i = 3; i < study.data.successes.size(); i += 4)
+        study.data.successes[i] = 1;
+    const MixedFit fit = fitMixed(study.data, study.person);
+    EXPECT_TRUE(fit.separated);
+    EXPECT_FALSE(fit.converged || fit.sdError);
+    EXPECT_GT(fit.coefficients[3], 10);
+    expectFinite(fit);
+    const Study others = trials28x7({1, 3, 6});
+    const MixedFit without = fitMixed(others.data, others.person);
+    EXPECT_NEAR(fit.sd, without.sd, 1e-3);
+    EXPECT_NEAR(fit.logLikelihood, without.logLikelihood, 1e-6);
+}
+
 TEST(Mixed, WrongInputIsNamed) {
     Study study = unbalancedPeople();
     study.person.pop_back();

@@ -174,6 +174,24 @@ TEST(Ordinal, IntervalDerivativesAreThoseOfTheFunction) {
             }
 }
 
+// R: log(plogis(-20) - plogis(-21)), log(pnorm(-20) - pnorm(-20.5)), pnorm(-37, log.p = TRUE).
+TEST(Ordinal, IntervalsFarInTheTailsAreExact) {
+    const auto expectValue = [](const IntervalEvidence& of, double value) {
+        EXPECT_NEAR(of.value, value, 1e-12 * std::abs(value));
+    };
+    expectValue(intervalEvidence(Link::logit, true, -21, true, -20), -20.45867514820649);
+    expectValue(intervalEvidence(Link::logit, true, 20, true, 21), -20.45867514820649);
+    expectValue(intervalEvidence(Link::probit, true, -20.5, true, -20), -203.917194464609);
+    expectValue(intervalEvidence(Link::probit, true, 20, true, 20.5), -203.917194464609);
+    expectValue(intervalEvidence(Link::probit, true, 37, false, 0), -689.0305855768906);
+    for (const double far : {50.0, 1e3, 1e6})
+        for (const Link link : {Link::logit, Link::probit}) {
+            const IntervalEvidence of = intervalEvidence(link, true, far, true, far + 1);
+            EXPECT_TRUE(std::isfinite(of.value) && std::isfinite(of.byShift()) &&
+                        std::isfinite(of.byShift2()) && std::isfinite(of.byShift3()));
+        }
+}
+
 TEST(Ordinal, SeparatedRatingsAreSaidAndFinite) {
     OrdinalData data{.design = VectorXd::LinSpaced(12, -1, 1), .category = {}};
     for (int i = 0; i < 12; ++i)
