@@ -130,12 +130,20 @@ GeeFit fitGee(const BinomialData& data, std::span<const int> person, Link link) 
         const VectorXd step = information.ldlt().solve(score);
         if (!step.allFinite())
             break;
-        fit.converged = (data.design * step).cwiseAbs().maxCoeff() < 1e-10;
+        // Where every share is 0 or 1 a step is 0 too, and the residuals are huge.
+        fit.converged = (data.design * step).cwiseAbs().maxCoeff() < 1e-10 && fit.scale < 1e6;
         if (!fit.converged)
             fit.coefficients += step;
     }
-    const MatrixXd inverse = symmetricInverse(information);
-    fit.covariance = inverse * spread * inverse;
+    if (fit.converged) {
+        const MatrixXd inverse = symmetricInverse(information);
+        fit.covariance = inverse * spread * inverse;
+    } else {
+        fit.coefficients = start.coefficients;
+        fit.covariance = clusterCovariance(data, start, link, person);
+        fit.correlation = 0;
+        fit.scale = 1;
+    }
     return fit;
 }
 

@@ -11,6 +11,8 @@ struct GeeFit {
     Eigen::MatrixXd covariance;   // robust: right even if the correlations are not as assumed
     double correlation = 0;       // between two answers of one person
     double scale = 1;             // of the variance
+    // False: no correlation solves the equations (few or extreme answers); the fit is then the one
+    // that assumes none, fitGlm's, whose robust covariance allows for it nevertheless.
     bool converged = false;
     bool separated = false; // as in GlmFit; nothing else can then be told
 };
