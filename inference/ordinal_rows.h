@@ -1,7 +1,7 @@
 #pragma once
 
 #include "inference/interval_evidence.h"
-#include "inference/ordinal.h"
+#include "inference/ordinal_data.h"
 #include "inference/person_rows.h"
 #include "inference/random_intercept.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "inference/psychometric.h"
+#include "inference/optimise.h"
+#include "inference/psychometric_model.h"
 
 namespace obscura {
 
