@@ -241,7 +241,7 @@ TEST_F(PresenterTest, KilledInTheMiddleOfATrialLosesNoRow) {
     const std::string before = readFile(dataFolder().rows({"P01", 1, false}));
     Program again(desktop.name(), arguments({"--participant", "P01"}), output);
     EXPECT_EQ(again.wait(), 1);
-    EXPECT_THAT(readFile(output), HasSubstr("there are data of P01, session 1"));
+    EXPECT_THAT(readFile(output), HasSubstr("session 1 broke off; --resume goes on with it"));
     EXPECT_EQ(readFile(dataFolder().rows({"P01", 1, false})), before);
 
     // Given back by a person, the slot goes to the next.
@@ -512,7 +512,7 @@ TEST_F(PresenterTest, ASessionThatBrokeOffIsCompletedFromItsJournal) {
     Program second(desktop.name(), arguments({"--participant", "P02"}), output);
     sees(desktop, second, "instructions", drawn(instructionsPage(texts)).image);
     EXPECT_EQ(readFile(dataFolder().rows({"P01", 1, false})), whole);
-    EXPECT_THAT(second.output(), testing::HasSubstr("the session of P01 broke off"));
+    EXPECT_THAT(second.output(), testing::HasSubstr("session 1 of P01 broke off"));
 }
 
 TEST_F(PresenterTest, SimulatesWithoutAScreen) {
