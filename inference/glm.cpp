@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
+#include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -88,8 +89,8 @@ class Fitter {
 // full step an ascent direction; it is too long only far from the maximum.
 double climb(const Fitter& fitter, VectorXd& coefficients, Point& point, const VectorXd& step) {
     const double slack = 1e-12 * (1 + std::abs(point.value));
-    for (double part = 1; part > 1e-6; part /= 2) {
-        const VectorXd next = coefficients + part * step;
+    for (int halvings = 0; halvings < 20; ++halvings) {
+        const VectorXd next = coefficients + std::ldexp(1.0, -halvings) * step;
         Point there = fitter.at(next);
         if (there.value >= point.value - slack) {
             const double gain = there.value - point.value;
@@ -234,6 +235,14 @@ MatrixXd clusterCovariance(const BinomialData& data, const GlmFit& fit, Link lin
             evidence(link, predictor[i], data.successes[i], data.trials[i]).slope *
             data.design.row(i);
     return fit.covariance * (scores.transpose() * scores) * fit.covariance;
+}
+
+Test likelihoodRatio(double smaller, double larger, int df) {
+    const double statistic = std::max(0.0, 2 * (larger - smaller));
+    const boost::math::chi_squared reference(df);
+    return {.statistic = statistic,
+            .df = df,
+            .p = boost::math::cdf(boost::math::complement(reference, statistic))};
 }
 
 } // namespace obscura

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "inference/link.h"
+#include "inference/result.h"
 #include <Eigen/Core>
 
 #include <span>
@@ -51,6 +52,12 @@ GlmFit fitGlm(const BinomialData& data, const GlmOptions& options = {});
 // cluster from 0.
 Eigen::MatrixXd clusterCovariance(const BinomialData& data, const GlmFit& fit, Link link,
                                   std::span<const int> cluster);
+
+// Likelihood-ratio test of a model against one with `df` fewer parameters, both fitted to the same
+// rows: twice the difference of the log-likelihoods, chi-square with df degrees of freedom (Wilks,
+// Ann. Math. Stat. 9 (1938) 60); R's anova(smaller, larger, test = "Chisq"). df >= 1. Not for the
+// test that an sd is 0, which lies on the border of its range.
+Test likelihoodRatio(double smaller, double larger, int df);
 
 // Checks that sizes agree and values are finite and in range; Error otherwise. What every model of
 // this room begins with.

@@ -17,11 +17,11 @@ struct MixedOptions {
 
 struct MixedFit {
     Eigen::VectorXd coefficients;
-    Eigen::MatrixXd covariance;    // from the second derivative by coefficients and sd together
-    double sd = 0;                 // between people, in units of the linear predictor; >= 0
+    Eigen::MatrixXd covariance;      // from the second derivative by coefficients and sd together
+    double sd = 0;                   // between people, in units of the linear predictor; >= 0
     std::optional<double> sdError{}; // absent where sd = 0 or the maximum is not finite
-    double logLikelihood = 0;      // with the binomial coefficients
-    Eigen::VectorXd persons;       // each person's most likely b
+    double logLikelihood = 0;        // with the binomial coefficients
+    Eigen::VectorXd persons;         // each person's most likely b
     bool converged = false;
     // People do not differ more than chance: the best sd is 0 and the fit is fitGlm's.
     bool boundary = false;
@@ -36,8 +36,10 @@ struct MixedFit {
 // quadrature (expected information at the mode) it shares, so that Laplace's approximation agrees
 // for probit too. lme4 stops at 1e-5 or so; here the gradient is exact and zero to 1e-7 standard
 // errors. `person` numbers each row's person from 0; equal rows of a person are fitted as one, so
-// 100,000 rows of 14 kinds cost what 14 rows a person do. Every number is finite in every case.
-// Error as fitGlm, or when `person` does not fit.
+// 100,000 rows of 14 kinds cost what 14 rows a person do. Where the likelihood has several hills
+// (few people whose sd is large; Laplace's approximation of it, which is then poor) the one found
+// is near sd = 1, as lme4's. Every number is finite in every case. Error as fitGlm, or when
+// `person` does not fit.
 MixedFit fitMixed(const BinomialData& data, std::span<const int> person,
                   const MixedOptions& options = {});
 

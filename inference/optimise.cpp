@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace obscura {
@@ -31,7 +32,8 @@ struct Climber {
     bool moveAlong(const VectorXd& step) {
         const double promised = gradient.dot(step), noise = 1e-13 * (1 + std::abs(value));
         VectorXd there(x.size());
-        for (double part = 1; part > 1e-10; part /= 2) {
+        for (int halvings = 0; halvings < 33; ++halvings) {
+            const double part = std::ldexp(1.0, -halvings);
             const VectorXd next = x + part * step;
             const double reached = evaluate(next, there);
             if (std::isfinite(reached) && there.allFinite() &&
@@ -59,7 +61,7 @@ void updateInverse(MatrixXd& inverse, const VectorXd& step, const VectorXd& fall
 void quasiNewton(Climber& climber, MatrixXd inverse) {
     for (int i = 0; i < 200; ++i) {
         const VectorXd step = inverse * climber.gradient;
-        if (climber.gradient.dot(step) < 1e-8)
+        if (climber.gradient.dot(step) < 1e-12)
             return;
         const VectorXd before = climber.x, slope = climber.gradient;
         if (!climber.moveAlong(step))
@@ -95,7 +97,7 @@ Maximum maximise(const Objective& objective, const VectorXd& start, const Matrix
     climber.value = climber.evaluate(start, climber.gradient);
     quasiNewton(climber, covariance);
     Maximum result{.at = {}, .covariance = covariance};
-    for (int i = 0; i < 20 && !result.reached; ++i) {
+    for (int i = 0; i < 10 && !result.reached; ++i) {
         const MatrixXd curvature = information(climber, result.covariance);
         const Eigen::LDLT<MatrixXd> factor(curvature);
         if (!curvature.allFinite() || !factor.isPositive() || factor.vectorD().minCoeff() <= 0)
@@ -105,8 +107,10 @@ Maximum maximise(const Objective& objective, const VectorXd& start, const Matrix
         const double gain = climber.gradient.dot(step);
         if (!climber.moveAlong(step))
             break;
-        // Near the maximum the error of a Newton step is the square of the step.
-        result.reached = gain < 1e-8;
+        // On the way to infinity the likelihood flattens until nothing is left to gain.
+        const bool flat =
+            (result.covariance.diagonal().array() > 1e6 * covariance.diagonal().array()).any();
+        result.reached = gain < 1e-8 && !flat;
     }
     result.at = climber.x;
     result.value = climber.value;

@@ -18,11 +18,13 @@ double modeOf(const ShiftedModel& model, int person, double sd, double u, Shifte
         low = std::max(low, excess > 0 ? u : target);
         high = std::min(high, excess > 0 ? target : u);
         const double step = excess / (1 - sd * sd * rows.curvature);
-        if (std::abs(step) < 1e-10 * (1 + std::abs(u)))
-            return u;
         const double next = u + step;
         u = next > low && next < high ? next : (low + high) / 2;
+        // The error of a Newton step is some square of it: the next u is right to 1e-14.
+        if (std::abs(step) < 1e-8)
+            break;
     }
+    rows = model.at(person, sd * u);
     return u;
 }
 

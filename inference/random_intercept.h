@@ -7,6 +7,10 @@
 
 namespace obscura {
 
+// Beyond this standard deviation a person's answers are certain, for any link: the best one is
+// infinite.
+inline constexpr double largestSd = 100;
+
 // One person's rows as a function of a shift v of all their linear predictors; sums over the rows
 // of log-likelihood, its first two derivatives by v, the information by which quadrature is scaled
 // (observed or expected) and that information's derivative.

@@ -1,4 +1,5 @@
 #include "base/error.h"
+#include "tests/inference/trials_28x7.h"
 
 #include "inference/glm.h"
 #include <gtest/gtest.h>
@@ -88,6 +89,29 @@ TEST(Glm, ClusterCovarianceEqualsSandwich) {
     expectNear(errors(clusterCovariance(tallies(), probit, Link::probit, cluster)),
                {0.0360022624271096, 0.0578025930862587, 0.179637990235329}, 1e-8);
     EXPECT_THROW(clusterCovariance(tallies(), logit, Link::logit, std::vector<int>{0, 1}), Error);
+}
+
+// trials.glm_coef and glm_loglik of golden_values.csv: glm(chose_b ~ condition + pos, binomial),
+// and its likelihood-ratio test of the condition.
+TEST(Glm, GoldenStudyEqualsR) {
+    Study study = trials28x7({1, 2, 3, 4, 5, 6, 7});
+    study.data.design.col(0).setOnes();
+    const GlmFit fit = fitGlm(study.data);
+    expectNear(fit.coefficients,
+               {0.443374387737, -0.150318831808, 0.48898702369, -0.443374387737, 1.10668449252,
+                -0.736429943667, -0.443374387737, 0.546957782709},
+               1e-11);
+    EXPECT_NEAR(fit.logLikelihood, -124.07444335, 1e-8);
+    const double without = fitGlm(withoutConditions(study).data).logLikelihood;
+    const auto test = likelihoodRatio(without, fit.logLikelihood, 6);
+    EXPECT_NEAR(test.statistic.value_or(0), 13.864459, 1e-6);
+    EXPECT_NEAR(test.p, 0.031187, 1e-6);
+}
+
+// pchisq(1300, 3, lower = FALSE); and a larger model is never worse than a smaller.
+TEST(Glm, LikelihoodRatioHoldsFarInTheTail) {
+    EXPECT_NEAR(likelihoodRatio(-650, 0, 3).p / 1.47174371069801e-281, 1, 1e-10);
+    EXPECT_EQ(likelihoodRatio(-5, -5 - 1e-12, 2).p, 1);
 }
 
 // A row of k of n is k rows of 1 and n - k of 0: same estimate, another saturated model.
