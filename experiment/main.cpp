@@ -5,6 +5,7 @@
 #include "base/version.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
+#include "experiment/language.h"
 #include "experiment/ledger.h"
 #include "experiment/presenter.h"
 #include "experiment/recorder.h"
@@ -32,7 +33,7 @@ namespace {
 
 struct Arguments {
     fs::path protocol, stimuli, data = "participant_data";
-    std::string participant;
+    std::string participant, language;
     int session = 1;
     int monitor = 1;
     std::string windowSize; // with --windowed; "" for the usual one
@@ -93,6 +94,10 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_option("--participant", arguments.participant,
                    "Pseudonym, letters and digits; asked for on the screen when not given")
         ->type_name("ID");
+    app.add_option("--language", arguments.language,
+                   "The participant's, a tag such as en or zh-Hans; chosen on the screen when not "
+                   "given and the study has several")
+        ->type_name("TAG");
     app.add_option("--session", arguments.session, "Which session of this participant")
         ->type_name("N")
         ->check(CLI::Range(1, 99))
@@ -231,9 +236,9 @@ gl::WindowOptions windowOptions(const Arguments& arguments) {
     return options;
 }
 
-// What stands above every page of text, and on stderr: the session is no measurement. An Error on
-// a display that no data should be collected on.
-std::string warning(const Arguments& arguments, const Display& display) {
+// Which text stands above every page, and on stderr: the session is no measurement; or none. An
+// Error on a display that no data should be collected on.
+std::string Texts::*warning(const Arguments& arguments, const Display& display) {
     fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
     const Refresh& refresh = display.refresh();
     const std::string objection = display.objection();
@@ -249,9 +254,9 @@ std::string warning(const Arguments& arguments, const Display& display) {
                                                    refresh.doubt)
                                      : objection);
         if (!arguments.allowUntimed)
-            return "Untimed display: not suitable for data collection";
+            return &Texts::untimed;
     }
-    return arguments.rehearse ? "Rehearsal: answers do not count" : "";
+    return arguments.rehearse ? &Texts::rehearsal : nullptr;
 }
 
 // Of sessions whose process has died: what their journals have is written into their tables, and
@@ -270,7 +275,7 @@ void mendOrphans(const DataFolder& folder) {
     }
 }
 
-int present(const Arguments& arguments, const Study& study) {
+int present(const Arguments& arguments, Study& study) {
     const DataFolder folder(arguments.data, study.protocol, arguments.rehearse);
     const auto sessionOf = [&](const std::string& id) {
         SessionId session{id, arguments.session, false, arguments.rehearse};
@@ -294,7 +299,15 @@ int present(const Arguments& arguments, const Study& study) {
 
     Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
                     curtain(study));
-    Presenter presenter(display, study, warning(arguments, display));
+    std::string Texts::*const above = warning(arguments, display);
+    if (arguments.language.empty() && !study.protocol.translations.empty()) {
+        const auto language =
+            askLanguage(display, study.protocol, above ? study.protocol.texts.*above : "");
+        if (!language)
+            return 0;
+        study.language = *language;
+    }
+    Presenter presenter(display, study, above ? study.texts().*above : "");
     const std::optional<std::string> id = arguments.participant.empty()
                                               ? presenter.askId(problemWith)
                                               : std::optional(arguments.participant);
@@ -364,7 +377,9 @@ int run(int argc, char** argv) {
     try {
         if (times)
             return timing(arguments);
-        const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        Study study = openStudy(arguments.protocol, arguments.stimuli);
+        if (!arguments.language.empty())
+            study.language = languageNamed(study.protocol, arguments.language);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
     } catch (const EndedBySignal& ended) {
         fmt::print(stderr, "obscura-experiment: ended by {}; answers so far are kept\n",

@@ -11,6 +11,8 @@ namespace obscura {
 // What participants and experimenters read, page by page. Every word comes from the study's
 // protocol, or is its English default, so that all can be in the participant's language.
 
+// Which language: each by its name, in its own script. `chosen`: from 0.
+Page languagePage(const Protocol& protocol, std::size_t chosen);
 Page loadingPage(const Texts& texts, int loaded, int images);
 Page idPage(const Texts& texts, const std::string& typed, const std::string& objection);
 Page instructionsPage(const Texts& texts);
@@ -29,7 +31,7 @@ Page thanksPage(const Texts& texts);
 Page unfocused(Page page, const Texts& texts);
 
 // An Error names the first text with characters that no installed font can show, where it is in the
-// protocol, and those characters.
+// protocol, its language, and those characters.
 void checkShowable(const Texts& texts);
 
 } // namespace obscura

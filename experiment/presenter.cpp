@@ -44,15 +44,16 @@ bool edit(std::string& text, const gl::Input& input) {
 } // namespace
 
 Curtain curtain(const Study& study) {
-    checkShowable(study.protocol.texts);
+    for (const Texts* texts : study.protocol.languages())
+        checkShowable(*texts);
     return [&study](int width, int height) {
-        const Page page = loadingPage(study.protocol.texts, 0, imageCount(study));
+        const Page page = loadingPage(study.texts(), 0, imageCount(study));
         return drawPage(page, width, height, study.protocol.trial.grey).image;
     };
 }
 
 Presenter::Presenter(Display& display, const Study& study, std::string warning)
-    : display_(display), study_(study), texts_(study.protocol.texts), warning_(std::move(warning)),
+    : display_(display), study_(study), texts_(study.texts()), warning_(std::move(warning)),
       phases_(phasesOf(study.protocol.trial)), prepared_(phases_.size()) {
     checkFits();
     leave_ = sheet(leavePage(texts_), "asked whether to end");
@@ -137,13 +138,18 @@ Presenter::Sheet Presenter::drawn(Page page, std::string title) const {
     const gl::Window& window = display_.window();
     auto [image, options, places] =
         drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
-    return {std::move(page),    std::move(title),  upload(image),
-            std::move(options), std::move(places), {}};
+    const bool mirrored = page.rightToLeft;
+    return {
+        std::move(page), std::move(title), upload(image), std::move(options), std::move(places), {},
+        mirrored};
 }
 
 Presenter::Sheet Presenter::formSheet(const Form& form, const Phase& phase) const {
     Sheet result = sheet(formPage(texts_, form, room(phase)), "");
     result.images = phase.images;
+    const auto focus = static_cast<std::size_t>(form.focus());
+    result.mirrored &=
+        !(result.page.parts.empty() ? result.page.ofImages : result.page.parts[focus].ofImages);
     return result;
 }
 
@@ -238,16 +244,23 @@ std::vector<gl::Input> Presenter::inputs() {
     return inputs;
 }
 
+// The arrow to the right means the option on the right: on a page from right to left, the first.
+gl::Key Presenter::asRead(gl::Key key) const {
+    if (!sheet_ || !sheet_->mirrored)
+        return key;
+    return key == gl::Key::left ? gl::Key::right : key == gl::Key::right ? gl::Key::left : key;
+}
+
 std::vector<Event> Presenter::events(bool wait) {
     using Kind = gl::Input::Kind;
     std::vector<Event> events;
     for (const gl::Input& input : wait ? inputs() : display_.window().poll())
         switch (input.kind) {
         case Kind::press:
-            events.push_back({Event::Kind::press, input.time, input.key});
+            events.push_back({Event::Kind::press, input.time, asRead(input.key)});
             break;
         case Kind::release:
-            events.push_back({Event::Kind::release, input.time, input.key});
+            events.push_back({Event::Kind::release, input.time, asRead(input.key)});
             break;
         case Kind::focusLost:
             events.push_back({Event::Kind::focusLost, input.time});
@@ -282,6 +295,8 @@ Event Presenter::clicked(const gl::Input& input) const {
         return event;
     event.option = static_cast<int>(found - boxes.begin()) + 1;
     event.share = (input.x - found->x + 0.5) / found->width;
+    if (sheet_->page.rightToLeft)
+        event.share = 1 - event.share;
     return event;
 }
 

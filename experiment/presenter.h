@@ -53,6 +53,7 @@ class Presenter : public Observer {
         std::vector<Box> options;
         std::vector<Box> places;         // of images on it,
         std::vector<std::string> images; // and which: by place or role
+        bool mirrored = false;           // its first option, or a slider's low end, is on the right
     };
 
     // What a phase shows, so that showing it is nothing but drawing.
@@ -77,6 +78,7 @@ class Presenter : public Observer {
     int places() const { return static_cast<int>(study_.protocol.trial.order.size()); }
     void announce();
     std::vector<gl::Input> inputs();
+    gl::Key asRead(gl::Key key) const;
     Event clicked(const gl::Input& input) const;
     std::vector<Event> answers();
     void turnTo(const Sheet& page);

@@ -148,6 +148,15 @@ void mustBeNew(std::set<std::string>& names, const std::string& name, const Plac
         throw Error(place, fmt::format("expected a new name, found \"{}\" again", name));
 }
 
+void noteBeside(std::vector<Phase>& phases) {
+    const bool beside = std::any_of(phases.begin(), phases.end(), [](const Phase& phase) {
+        return phase.images.size() > 1 && phase.alternate == 0;
+    });
+    for (Phase& phase : phases)
+        for (Question& question : phase.questions)
+            question.beside = question.images && beside;
+}
+
 std::vector<Phase> parsePhases(TomlTable& trial) {
     std::vector<Phase> phases;
     std::set<std::string> names, answers;
@@ -157,6 +166,7 @@ std::vector<Phase> parsePhases(TomlTable& trial) {
         for (const Question& question : phases.back().questions)
             mustBeNew(answers, question.name, question.place);
     }
+    noteBeside(phases);
     return phases;
 }
 
