@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,17 @@ Page blank(const Texts& texts) {
 }
 
 // A number that stays whole, sign and all, among words that run from right to left: an isolate.
-std::string number(double value) { return fmt::format("\u2066{:g}\u2069", value); }
+std::string number(double value) {
+    return fmt::format("\u2066{}{:g}\u2069", value < 0 ? "\u2212" : "", std::abs(value));
+}
+
+// After a question, the numbers that it takes; in the brackets of its script.
+std::string rangeOf(const Texts& texts, const Question& question) {
+    const std::string range = fmt::format("{}{}{}", number(question.least),
+                                          question.least < 0 ? " – " : "–", number(question.most));
+    const bool wide = texts.language.starts_with("zh") || texts.language.starts_with("ja");
+    return wide ? fmt::format("（{}）", range) : fmt::format(" ({})", range);
+}
 
 } // namespace
 
@@ -116,7 +127,7 @@ Page::Part partOf(const Texts& texts, const Form& form, std::size_t index) {
     part.focus = form.focus() == static_cast<int>(index);
     switch (question.kind) {
     case Question::Kind::number: // says what it takes, for Enter does nothing with anything else
-        part.label += fmt::format(" ({}–{})", number(question.least), number(question.most));
+        part.label += rangeOf(texts, question);
         [[fallthrough]];
     case Question::Kind::text:
         part.field = Page::Field{entry.typed, part.focus};

@@ -55,7 +55,10 @@ Layout layOut(cairo_t* cairo, const std::string& text, double pixels, bool bold,
         pango_context_set_language(context, fontLanguage(script.language));
     if (script.direction) {
         pango_context_set_base_dir(context, *script.direction);
-        pango_layout_set_auto_dir(layout.get(), FALSE);
+        pango_layout_set_auto_dir(layout.get(), FALSE); // nor does Pango then choose the side
+        pango_layout_set_alignment(layout.get(), *script.direction == PANGO_DIRECTION_RTL
+                                                     ? PANGO_ALIGN_RIGHT
+                                                     : PANGO_ALIGN_LEFT);
     }
     const Font font(pango_font_description_from_string(family));
     pango_font_description_set_absolute_size(font.get(), std::round(pixels) * PANGO_SCALE);
@@ -171,7 +174,7 @@ void Setter::centred(const std::string& text, double size, bool bold, PangoAlign
 // Centred as a block, its lines flush with the side from which they are read: a short line stands
 // over the options, a long text fills the column.
 void Setter::paragraph(const std::string& text, double size, bool bold) {
-    centred(text, size, bold, PANGO_ALIGN_LEFT);
+    centred(text, size, bold, mirrored_ ? PANGO_ALIGN_RIGHT : PANGO_ALIGN_LEFT);
 }
 
 void Setter::title(const std::string& text, double size, bool bold) {
