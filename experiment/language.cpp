@@ -1,12 +1,14 @@
 #include "experiment/language.h"
 
 #include "base/error.h"
+#include "base/files.h"
 #include "experiment/form.h"
 #include "experiment/pages.h"
 #include "experiment/text.h"
 #include "protocols/reader/languages.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <vector>
@@ -107,6 +109,17 @@ std::string languageNamed(const Protocol& protocol, const std::string& tag) {
     throw Error(fmt::format("--language: expected a language of the study, found \"{}\"; {}", tag,
                             known.empty() ? "it does not say which its own is"
                                           : fmt::format("it has {}", fmt::join(known, ", "))));
+}
+
+std::string languageOf(const std::filesystem::path& sidecar, const Protocol& protocol) {
+    if (!std::filesystem::exists(sidecar))
+        return "";
+    const auto said = nlohmann::json::parse(readFile(sidecar), nullptr, false);
+    const auto language = said.is_object() ? said.find("language") : said.end();
+    for (const Texts* texts : protocol.languages())
+        if (language != said.end() && *language == texts->language)
+            return texts->language;
+    return "";
 }
 
 std::optional<std::string> askLanguage(Display& display, const Protocol& protocol,

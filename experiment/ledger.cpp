@@ -146,6 +146,21 @@ void checkFits(const std::vector<SlotRecord>& history, const SessionId& session,
     }
 }
 
+void checkPlan(const std::vector<SlotRecord>& slots, int planned, const Place& place) {
+    const auto in = [&](SlotState state) {
+        return std::count_if(slots.begin(), slots.end(),
+                             [&](const SlotRecord& record) { return record.state == state; });
+    };
+    const auto completed = in(SlotState::completed), reserved = in(SlotState::reserved);
+    if (completed + reserved >= planned)
+        throw Error(place, fmt::format("all {} participants that the protocol plans have taken "
+                                       "part ({} completed, {} running or broken off); plan more "
+                                       "(participants in [ordering], which is no part of the "
+                                       "design), or give back the slot of one that broke off "
+                                       "(ledger --void)",
+                                       planned, completed, reserved));
+}
+
 enum class Holder {
     none,    // not reserved
     gone,    // its process has ended beyond doubt
@@ -186,6 +201,22 @@ void checkGivenBack(const SlotRecord& record) {
                                 record.slot, record.process, record.session.participant));
 }
 
+void checkTakenBack(const SlotRecord& record, const SessionId& session) {
+    const bool same = record.session.participant == session.participant &&
+                      record.session.number == session.number;
+    if (!same)
+        throw Error(fmt::format("slot {} was given back, and is that of participant {} now; what "
+                                "{} answered is kept",
+                                record.slot, record.session.participant, session.participant));
+    if (record.state == SlotState::completed)
+        throw Error(fmt::format("slot {} was completed", record.slot));
+    if (holderOf(record) == Holder::here)
+        throw Error(fmt::format("slot {} is in use: process {} is running participant {}",
+                                record.slot, record.process, record.session.participant));
+    if (holderOf(record) == Holder::unknown)
+        throw Error(doubtOf(record) + ". Go on there, or give the slot back first (ledger --void)");
+}
+
 } // namespace
 
 std::string_view nameOf(SlotState state) { return stateNames[static_cast<std::size_t>(state)]; }
@@ -194,14 +225,35 @@ std::vector<SlotRecord> Ledger::history() const { return read(file_); }
 
 std::vector<SlotRecord> Ledger::records() const { return lastOfEach(history()); }
 
-int Ledger::claim(const SessionId& session, const std::string& design) {
+int Ledger::claim(const SessionId& session, const std::string& design, int planned) {
     AppendFile file = AppendFile::openLocked(file_, isWhole);
     const std::vector<SlotRecord> lines = history();
     checkFits(lines, session, design, {file_.string(), 0, 0, {}});
-    const int slot = freeSlot(lastOfEach(lines));
+    const std::vector<SlotRecord> slots = lastOfEach(lines);
+    checkPlan(slots, planned, {file_.string(), 0, 0, {}});
+    const int slot = freeSlot(slots);
     file.append(line({slot, SlotState::reserved, session, machineName(), utcNow(), processId(),
                       ProcessId::current(), design}));
     return slot;
+}
+
+void Ledger::takeBack(int slot, const SessionId& session, const std::string& design) {
+    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    const std::vector<SlotRecord> lines = history();
+    const Place place{file_.string(), 0, 0, {}};
+    checkFits(lines, session, design, place);
+    const std::vector<SlotRecord> slots = lastOfEach(lines);
+    const auto found = std::find_if(slots.begin(), slots.end(),
+                                    [&](const SlotRecord& record) { return record.slot == slot; });
+    if (found == slots.end())
+        throw Error(place, fmt::format("slot {} was never claimed", slot));
+    try {
+        checkTakenBack(*found, session);
+    } catch (const Error& error) {
+        throw Error(place, error.what());
+    }
+    file.append(line({slot, SlotState::reserved, session, machineName(), utcNow(), processId(),
+                      ProcessId::current(), design}));
 }
 
 void Ledger::complete(int slot) { change(slot, SlotState::completed, checkCompletes); }

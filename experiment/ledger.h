@@ -41,8 +41,8 @@ struct SlotRecord {
 // The rules. claim() gives the lowest returned slot, or, if there is none, the first never used.
 // A session that ends in order before its last trial returns its slot. A session whose process
 // died keeps it: the program cannot know what the participant has seen, so a person decides
-// (obscura-experiment ledger --void N). Simulated and real participants never share a ledger, nor
-// do two designs.
+// (obscura-experiment ledger --void N), or the same session goes on. Simulated and real
+// participants never share a ledger, nor do two designs.
 class Ledger {
   public:
     explicit Ledger(std::filesystem::path file) : file_(std::move(file)) {}
@@ -50,7 +50,11 @@ class Ledger {
     std::vector<SlotRecord> history() const; // every line; an Error at the first damaged one
     std::vector<SlotRecord> records() const; // by slot, each slot's last change
 
-    int claim(const SessionId& session, const std::string& design = {});
+    // Where `planned` sessions are completed or reserved already, an Error says so.
+    int claim(const SessionId& session, const std::string& design = {}, int planned = highestSlot);
+    // The slot of a session that broke off, for the same session to go on. An Error when another
+    // has it by now, when it was completed, or when its session may still be running.
+    void takeBack(int slot, const SessionId& session, const std::string& design = {});
     void complete(int slot); // Error when it is another's by now
     void giveBack(int slot); // Error when it was never claimed, or its process still runs here
     // Lines of sessions that it has lost, in the order in which they are to stand.
@@ -72,8 +76,14 @@ std::string doubtOf(const SlotRecord& record);
 // Holds a slot while a session runs; gives it back unless the session completes.
 class Claim {
   public:
-    Claim(Ledger& ledger, const SessionId& session, const std::string& design = {})
-        : ledger_(ledger), slot_(ledger.claim(session, design)) {}
+    Claim(Ledger& ledger, const SessionId& session, const std::string& design = {},
+          int planned = highestSlot)
+        : ledger_(ledger), slot_(ledger.claim(session, design, planned)) {}
+    // Takes it back.
+    Claim(Ledger& ledger, int slot, const SessionId& session, const std::string& design = {})
+        : ledger_(ledger), slot_(slot) {
+        ledger.takeBack(slot, session, design);
+    }
     ~Claim();
     Claim(const Claim&) = delete;
     Claim& operator=(const Claim&) = delete;

@@ -3,10 +3,12 @@
 #include "base/files.h"
 #include "base/progress.h"
 #include "base/version.h"
+#include "experiment/broken_session.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/language.h"
 #include "experiment/ledger.h"
+#include "experiment/ledger_command.h"
 #include "experiment/presenter.h"
 #include "experiment/recorder.h"
 #include "experiment/session.h"
@@ -38,11 +40,10 @@ struct Arguments {
     int monitor = 1;
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
-    bool simulate = false;
+    bool simulate = false, resume = false;
     int simulated = 0; // how many; 0 as the protocol plans
     std::optional<std::uint64_t> seed;
-    int returned = 0; // slot, with ledger --void
-    bool yes = false, restore = false;
+    LedgerCommand ledger;
     bool photodiode = false;
     int masks = 1000; // with timing
     double seconds = 2;
@@ -102,12 +103,17 @@ void declare(CLI::App& app, Arguments& arguments) {
         ->type_name("N")
         ->check(CLI::Range(1, 99))
         ->capture_default_str();
+    CLI::Option* resume =
+        app.add_flag("--resume", arguments.resume,
+                     "Go on with the participant's session, which broke off: no trial is shown "
+                     "twice. Without --participant, the screen asks");
     CLI::Option* windowed = declareScreen(app, arguments);
     app.add_flag("--list-monitors", arguments.listMonitors, "Name the monitors, and end");
     CLI::Option* rehearse =
         app.add_flag("--rehearse", arguments.rehearse,
                      "Try the study out: takes no slot, and its rows go to rehearsals/ in the data "
-                     "folder, marked as such; --windowed always does");
+                     "folder, marked as such; --windowed always does")
+            ->excludes(resume);
     app.add_flag("--allow-untimed", arguments.allowUntimed,
                  "Go on, and without a warning on the screen, on a display whose times cannot be "
                  "relied on; every row says timestamp_source none");
@@ -119,29 +125,14 @@ void declare(CLI::App& app, Arguments& arguments) {
             ->expected(0, 1)
             ->check(CLI::Range(1, 100000))
             ->excludes(windowed)
+            ->excludes(resume)
             ->excludes(rehearse);
     app.add_option("--seed", arguments.seed,
                    "Seed of the simulated participants; the protocol's when not given")
         ->type_name("S")
         ->needs(simulate);
 
-    CLI::App* ledger = app.add_subcommand(
-        "ledger", "List who has which slot of the ordering scheme, or give a slot back");
-    ledger->add_option("--protocol", arguments.protocol, "The study: a TOML file")
-        ->type_name("FILE")
-        ->required();
-    ledger->add_option("--data", arguments.data, "The data folder")
-        ->type_name("DIR")
-        ->capture_default_str();
-    ledger
-        ->add_option("--void", arguments.returned,
-                     "Give slot N back, so that the next participant gets it; asks when the slot "
-                     "was completed, or is held by another machine")
-        ->type_name("N")
-        ->check(CLI::Range(1, highestSlot));
-    ledger->add_flag("--yes", arguments.yes, "Answer yes to what --void asks");
-    ledger->add_flag("--restore", arguments.restore,
-                     "Add the sessions beside a lost or shortened ledger that it does not know");
+    declareLedger(app, arguments.ledger);
     declareTiming(app, arguments);
     app.footer(
         "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
@@ -155,45 +146,6 @@ int listMonitors() {
         fmt::print("{}  {}  {}x{} at {} Hz, {}x{} mm\n", ++number, monitor.name, monitor.width,
                    monitor.height, monitor.refreshHz, monitor.widthMm, monitor.heightMm);
     return 0;
-}
-
-void print(const SlotRecord& record) {
-    fmt::print("{:4}  {:9}  {:12}  session {}  {}{}\n", record.slot, nameOf(record.state),
-               record.session.participant, record.session.number, record.time,
-               isOrphan(record) ? "  its process has died; --void gives the slot back" : "");
-}
-
-bool confirm(const std::string& doubt) {
-    if (!::isatty(STDIN_FILENO))
-        throw Error(doubt + ". Give it back with --yes if you are sure");
-    fmt::print(stderr, "{}. Give it back? [y/N] ", doubt);
-    std::string answer;
-    std::getline(std::cin, answer);
-    return answer == "y" || answer == "Y" || answer == "yes";
-}
-
-// False when the person thinks better of it.
-bool giveBack(Ledger& ledger, const Arguments& arguments) {
-    for (const SlotRecord& record : ledger.records())
-        if (record.slot == arguments.returned && !arguments.yes)
-            if (const std::string doubt = doubtOf(record); !doubt.empty() && !confirm(doubt))
-                return false;
-    ledger.giveBack(arguments.returned);
-    return true;
-}
-
-int editLedger(const Arguments& arguments) {
-    const DataFolder folder(arguments.data, readProtocol(arguments.protocol));
-    Ledger ledger(folder.ledger());
-    if (arguments.restore)
-        ledger.restore(lostFromLedger(folder));
-    const bool done = arguments.returned == 0 || giveBack(ledger, arguments);
-    for (const SlotRecord& record : ledger.records())
-        print(record);
-    for (const SlotRecord& record : lostFromLedger(folder))
-        fmt::print(stderr, "obscura-experiment: slot {} of {} is missing; --restore adds it\n",
-                   record.slot, record.session.participant);
-    return done ? 0 : 1;
 }
 
 void checkFolder(const DataFolder& folder, const Study& study) {
@@ -259,20 +211,55 @@ std::string Texts::*warning(const Arguments& arguments, const Display& display) 
     return arguments.rehearse ? &Texts::rehearsal : nullptr;
 }
 
-// Of sessions whose process has died: what their journals have is written into their tables, and
-// the experimenter is told.
+// Of sessions whose process has died: what their journals have is written into their tables, one
+// that had come to its end keeps its slot, and the experimenter is told of the others.
 void mendOrphans(const DataFolder& folder) {
-    for (const SlotRecord& record : Ledger(folder.ledger()).records()) {
+    Ledger ledger(folder.ledger());
+    for (const SlotRecord& record : ledger.records()) {
         if (!isOrphan(record))
             continue;
-        if (fs::exists(folder.journal(record.session)))
+        if (fs::exists(folder.journal(record.session))) {
             restoreTables(folder, record.session);
+            if (endOf(folder.journal(record.session)) == "completed") {
+                Claim(ledger, record.slot, record.session, record.design).complete();
+                continue;
+            }
+        }
         fmt::print(
             stderr,
-            "obscura-experiment: the session of {} broke off; what was answered is kept. Its "
-            "slot {} stays reserved until obscura-experiment ledger --void {}\n",
-            record.session.participant, record.slot, record.slot);
+            "obscura-experiment: session {1} of {0} broke off; what was answered is kept. Go "
+            "on with it by --participant {0} --session {1} --resume, or give its slot back: "
+            "obscura-experiment ledger --void {2}\n",
+            record.session.participant, record.session.number, record.slot);
     }
+}
+
+// What a participant who gives this id would do.
+IdVerdict judge(const Study& study, const DataFolder& folder, const SessionId& session) {
+    if (objection(folder, session).empty())
+        return {true};
+    try {
+        if (!session.rehearsal && isParticipantId(session.participant))
+            return {true, brokenSession(study, folder, session).trials};
+    } catch (const Error& error) {
+        fmt::print(stderr, "obscura-experiment: {}\n", error.what());
+    }
+    return {};
+}
+
+// An Error when a session cannot be run, or not be gone on with, under the id that was given.
+void checkParticipant(const Arguments& arguments, const Study& study, const DataFolder& folder,
+                      const SessionId& session) {
+    if (arguments.resume) {
+        brokenSession(study, folder, session);
+        return;
+    }
+    std::string problem = objection(folder, session);
+    if (problem.empty())
+        return;
+    if (judge(study, folder, session).broken)
+        problem = fmt::format("session {} broke off; --resume goes on with it", session.number);
+    throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
 }
 
 int present(const Arguments& arguments, Study& study) {
@@ -283,12 +270,6 @@ int present(const Arguments& arguments, Study& study) {
             ++session.number; // people rehearse more than once
         return session;
     };
-    const auto problemWith = [&](const std::string& id) {
-        return objection(folder, sessionOf(id));
-    };
-    if (!arguments.participant.empty())
-        if (const std::string problem = problemWith(arguments.participant); !problem.empty())
-            throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
     if (arguments.rehearse) {
         fmt::print(stderr,
                    "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
@@ -296,11 +277,16 @@ int present(const Arguments& arguments, Study& study) {
         checkFolder(folder, study);
         mendOrphans(folder);
     }
+    if (!arguments.participant.empty())
+        checkParticipant(arguments, study, folder, sessionOf(arguments.participant));
 
     Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
                     curtain(study));
     std::string Texts::*const above = warning(arguments, display);
-    if (arguments.language.empty() && !study.protocol.translations.empty()) {
+    if (study.language.empty() && arguments.resume && !arguments.participant.empty())
+        study.language =
+            languageOf(folder.sidecar(sessionOf(arguments.participant)), study.protocol);
+    if (study.language.empty() && !study.protocol.translations.empty()) {
         const auto language =
             askLanguage(display, study.protocol, above ? study.protocol.texts.*above : "");
         if (!language)
@@ -309,12 +295,17 @@ int present(const Arguments& arguments, Study& study) {
     }
     Presenter presenter(display, study, above ? study.texts().*above : "");
     const std::optional<std::string> id = arguments.participant.empty()
-                                              ? presenter.askId(problemWith)
+                                              ? presenter.askId([&](const std::string& typed) {
+                                                    return judge(study, folder, sessionOf(typed));
+                                                })
                                               : std::optional(arguments.participant);
     if (!id)
         return 0;
     const SessionId session = sessionOf(*id);
-    const bool completed = runSession(study, folder, session, presenter);
+    const bool completed =
+        objection(folder, session).empty()
+            ? runSession(study, folder, session, presenter)
+            : resumeSession(study, folder, brokenSession(study, folder, session), presenter);
     fmt::print("{}: {}\n", folder.rows(session).string(),
                completed            ? "complete"
                : arguments.rehearse ? "ended before the last trial"
@@ -369,7 +360,7 @@ int run(int argc, char** argv) {
     if (arguments.listMonitors)
         return listMonitors();
     if (app.got_subcommand("ledger"))
-        return editLedger(arguments);
+        return editLedger(arguments.ledger);
     heedSignals();
     const bool times = app.got_subcommand("timing");
     if (!times && (arguments.protocol.empty() || arguments.stimuli.empty()))

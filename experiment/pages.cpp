@@ -70,6 +70,13 @@ Page idPage(const Texts& texts, const std::string& typed, const std::string& obj
     return page;
 }
 
+Page resumePage(const Texts& texts, int trial, int trials) {
+    Page page = blank(texts);
+    page.heading = replaced(replaced(texts.resume, "{pair}", trial), "{pairs}", trials);
+    page.options = {{"1", texts.stay}, {"2", texts.otherId}};
+    return page;
+}
+
 Page instructionsPage(const Texts& texts) {
     Page page = blank(texts);
     page.text = texts.instructions;

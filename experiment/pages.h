@@ -15,6 +15,8 @@ namespace obscura {
 Page languagePage(const Protocol& protocol, std::size_t chosen);
 Page loadingPage(const Texts& texts, int loaded, int images);
 Page idPage(const Texts& texts, const std::string& typed, const std::string& objection);
+// Whether a session that broke off after `trial` of `trials` is to go on.
+Page resumePage(const Texts& texts, int trial, int trials);
 Page instructionsPage(const Texts& texts);
 // Of a phase of text; `pair` of `pairs` stands above it where the phase shows progress.
 Page textPage(const Texts& texts, const Phase& phase, int pair, int pairs);

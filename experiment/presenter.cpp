@@ -79,6 +79,7 @@ void Presenter::checkFits() const {
                                instructionsPage(texts_),
                                restPage(texts_),
                                leavePage(texts_),
+                               resumePage(texts_, pairs, pairs),
                                thanksPage(texts_)};
     for (const Phase& phase : phases_)
         if (!phase.questions.empty())
@@ -333,14 +334,17 @@ bool Presenter::read(const Sheet& page) {
         }
 }
 
-bool Presenter::leaves() {
-    turnTo(leave_);
+bool Presenter::leaves() { return choose(leave_) == 2; }
+
+// Which of the page's two options was chosen, 1 or 2; 0 for Escape.
+int Presenter::choose(const Sheet& page) {
+    turnTo(page);
     for (;;)
         for (const Event& event : answers()) {
             const int option =
                 event.kind == Event::Kind::option ? event.option : optionOf(event.key);
             if (option != 0 || event.key == gl::Key::escape)
-                return option == 2;
+                return option;
         }
 }
 
@@ -355,7 +359,7 @@ void Presenter::thank() {
 }
 
 std::optional<std::string>
-Presenter::askId(const std::function<std::string(const std::string&)>& objection) {
+Presenter::askId(const std::function<IdVerdict(const std::string&)>& judge) {
     std::string typed, problem;
     Sheet page = sheet(idPage(texts_, typed, problem), idTitle);
     turnTo(page);
@@ -366,9 +370,16 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
             if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
                 return std::nullopt;
             if (press && input.key == gl::Key::enter) {
-                if (objection(typed).empty())
+                const IdVerdict verdict = judge(typed);
+                const bool confirmed = verdict.broken && goesOn(*verdict.broken);
+                if (confirmed || (verdict.accepted && !verdict.broken))
                     return typed;
                 problem = isParticipantId(typed) ? texts_.idTaken : texts_.idMalformed;
+                if (verdict.broken) {
+                    typed.clear();
+                    problem.clear();
+                    turnTo(page);
+                }
             }
             if (edit(typed, input))
                 problem.clear();
@@ -378,6 +389,10 @@ Presenter::askId(const std::function<std::string(const std::string&)>& objection
             showSheet(page);
         }
     }
+}
+
+bool Presenter::goesOn(int trials) {
+    return choose(sheet(resumePage(texts_, trials, longest(study_.protocol)), "go on?")) == 1;
 }
 
 void Presenter::prepare(const Upcoming& trial) {

@@ -14,6 +14,12 @@
 
 namespace obscura {
 
+// Whether a session can be run under an id that was typed.
+struct IdVerdict {
+    bool accepted = false;
+    std::optional<int> broken = {}; // it goes on with one that broke off after so many trials
+};
+
 // What a display is to show while the study is being loaded. An Error when one of the study's texts
 // cannot be shown.
 Curtain curtain(const Study& study);
@@ -31,9 +37,9 @@ class Presenter : public Observer {
     // is.
     Presenter(Display& display, const Study& study, std::string warning);
 
-    // Asks for the participant's id until `objection` has none; nothing when Escape was pressed.
-    std::optional<std::string>
-    askId(const std::function<std::string(const std::string&)>& objection);
+    // Asks for the participant's id until `judge` has no objection, and, of a session that broke
+    // off, until the experimenter confirms that it goes on; nothing when Escape was pressed.
+    std::optional<std::string> askId(const std::function<IdVerdict(const std::string&)>& judge);
 
     Refresh refresh() const override { return display_.refresh(); }
     void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
@@ -84,6 +90,8 @@ class Presenter : public Observer {
     void turnTo(const Sheet& page);
     bool read(const Sheet& page);
     bool leaves();
+    int choose(const Sheet& page);
+    bool goesOn(int trials);
 
     Display& display_;
     const Study& study_;

@@ -34,6 +34,24 @@ Recorder::Recorder(const DataFolder& folder, const SessionId& session, int slot,
                                                             {"rehearsal", session.rehearsal},
                                                             {"slot", slot}}))) {}
 
+Recorder::Recorder(std::optional<AppendFile> rows, AppendFile phases, AppendFile answers,
+                   AppendFile journal)
+    : rows_(std::move(rows)), phases_(std::move(phases)), answers_(std::move(answers)),
+      journal_(std::move(journal)) {}
+
+Recorder Recorder::resume(const DataFolder& folder, const BrokenSession& broken, bool pairs) {
+    const SessionId& session = broken.session;
+    restoreTables(folder, session);
+    Recorder recorder(pairs ? std::optional(AppendFile::openLocked(folder.rows(session)))
+                            : std::nullopt,
+                      AppendFile::openLocked(folder.phases(session)),
+                      AppendFile::openLocked(folder.answers(session)),
+                      AppendFile::openLocked(folder.journal(session)));
+    recorder.journal_.append(
+        entry("session_resumed", {{"trials", broken.trials}, {"half_seen", broken.halfSeen}}));
+    return recorder;
+}
+
 void Recorder::trialStarted(int trial, const std::string& condition) {
     journal_.append(entry("trial_started", {{"trial", trial}, {"condition", condition}}));
 }

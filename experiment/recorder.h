@@ -1,6 +1,7 @@
 #pragma once
 
 #include "experiment/append_file.h"
+#include "experiment/broken_session.h"
 #include "experiment/data_folder.h"
 #include "protocols/reader/responses.h"
 
@@ -29,12 +30,19 @@ class Recorder {
     // its trials have rows.
     Recorder(const DataFolder& folder, const SessionId& session, int slot, bool pairs);
 
+    // Goes on with the files of a session that broke off, once restoreTables() has mended them.
+    // The journal says session_resumed, after how many trials, and which were half seen.
+    static Recorder resume(const DataFolder& folder, const BrokenSession& broken, bool pairs);
+
     void trialStarted(int trial, const std::string& condition);
     void finished(int trial, const TrialLines& lines);
     void hastyPresses(int trial, int count); // of Space, ignored because an image had just come on
     void end(std::string_view reason);
 
   private:
+    Recorder(std::optional<AppendFile> rows, AppendFile phases, AppendFile answers,
+             AppendFile journal);
+
     // No rows where the study's trials are no pairs.
     std::optional<AppendFile> rows_;
     AppendFile phases_, answers_, journal_;

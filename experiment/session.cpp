@@ -85,15 +85,16 @@ int hastyPressesOf(const TrialRecord& record) {
     return sum;
 }
 
-// All trials, or those until the person left: true when all were answered. Adds to the intervals of
-// counted phases.
-bool playAll(const Context& context, Observer& observer, Recorder& recorder,
-             std::vector<double>& intervals) {
+// All trials that are left, or those until the person left: true when all were answered. Adds to
+// the intervals of counted phases.
+bool playAll(const Context& context, const BrokenSession& before, Observer& observer,
+             Recorder& recorder, std::vector<double>& intervals) {
     const Protocol& protocol = context.study.protocol;
     const std::vector<Phase> phases = phasesOf(protocol.trial);
     const int count = longest(protocol);
-    std::vector<PastTrial> history;
-    for (int index = 1; const auto planned = next(protocol, context.assignment.slot, history);) {
+    std::vector<PastTrial> history = before.history;
+    for (int index = before.trials + 1;
+         const auto planned = next(protocol, context.assignment.slot, history);) {
         if (planned->kind == PlannedTrial::Kind::rest) {
             if (!observer.rest())
                 return false;
@@ -117,25 +118,29 @@ bool playAll(const Context& context, Observer& observer, Recorder& recorder,
     return true;
 }
 
-} // namespace
-
-bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
-                Observer& observer) {
-    throwIfEnded();
-    folder.prepare();
+// What goes on after what was before; nothing was, for a new session.
+bool run(const Study& study, const DataFolder& folder, const BrokenSession& before, bool resumed,
+         Observer& observer) {
+    const SessionId& session = before.session;
     Ledger ledger(folder.ledger());
     std::optional<Claim> claim;
     const std::string designSha256 = sha256(study.design());
-    if (!session.rehearsal) {
-        claim.emplace(ledger, session, designSha256);
+    if (resumed)
+        claim.emplace(ledger, before.slot, session, designSha256);
+    else if (!session.rehearsal)
+        claim.emplace(ledger, session, designSha256,
+                      session.simulated ? highestSlot : study.protocol.ordering.participants);
+    if (claim)
         keepDesign(folder, study);
-    }
     const Assignment assignment = assign(study.protocol, claim ? claim->slot() : 1);
     const Refresh refresh = observer.refresh();
     const Context context{study, session, assignment, refresh, designSha256};
-    Recorder recorder(folder, session, assignment.slot,
-                      pairPhasesOf(study.protocol.trial).has_value());
+    const bool pairs = pairPhasesOf(study.protocol.trial).has_value();
+    Recorder recorder = resumed ? Recorder::resume(folder, before, pairs)
+                                : Recorder(folder, session, assignment.slot, pairs);
     ordered_json sidecar = circumstances(context, observer);
+    if (resumed)
+        sidecar = continued(folder.sidecar(session), sidecar, before);
     writeFile(folder.sidecar(session), sidecar.dump(2) + "\n");
 
     bool completed = false;
@@ -143,7 +148,7 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
     std::vector<double> intervals;
     std::optional<EndedBySignal> ended;
     try {
-        completed = observer.instruct() && playAll(context, observer, recorder, intervals);
+        completed = observer.instruct() && playAll(context, before, observer, recorder, intervals);
         if (completed)
             reason = "completed";
     } catch (const EndedBySignal& signal) {
@@ -160,6 +165,22 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
     if (completed)
         observer.thank();
     return completed;
+}
+
+} // namespace
+
+bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
+                Observer& observer) {
+    throwIfEnded();
+    folder.prepare();
+    return run(study, folder, {session, 0, {}, 0, {}}, false, observer);
+}
+
+bool resumeSession(const Study& study, const DataFolder& folder, const BrokenSession& broken,
+                   Observer& observer) {
+    throwIfEnded();
+    folder.prepare();
+    return run(study, folder, broken, true, observer);
 }
 
 } // namespace obscura

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiment/broken_session.h"
 #include "experiment/data_folder.h"
 #include "experiment/observer.h"
 #include "experiment/study.h"
@@ -15,5 +16,9 @@ namespace obscura {
 // of the first.
 bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
                 Observer& observer);
+
+// The same from where it broke off: instructions, the trials that have not been shown, thanks.
+bool resumeSession(const Study& study, const DataFolder& folder, const BrokenSession& broken,
+                   Observer& observer);
 
 } // namespace obscura

@@ -73,11 +73,30 @@ ordered_json circumstances(const Context& context, const Observer& observer) {
     return sidecar;
 }
 
+ordered_json continued(const std::filesystem::path& file, const ordered_json& now,
+                       const BrokenSession& broken) {
+    // Killed before it was written, or damaged since then: the journal has what matters.
+    ordered_json sidecar = std::filesystem::exists(file)
+                               ? ordered_json::parse(readFile(file), nullptr, false)
+                               : ordered_json();
+    if (!sidecar.is_object())
+        sidecar = now;
+    ordered_json part = {{"trials_before", broken.trials}, {"half_seen", broken.halfSeen}};
+    part.update(now);
+    for (const char* key : {"ended", "end_reason"})
+        part.erase(key);
+    sidecar["resumed"].push_back(part);
+    sidecar["ended"] = nullptr;
+    sidecar["end_reason"] = now.at("end_reason");
+    return sidecar;
+}
+
 void addOutcome(ordered_json& sidecar, const std::string& reason,
                 const std::vector<double>& maskIntervals, double refreshHz) {
     sidecar["ended"] = utcNow();
     sidecar["end_reason"] = reason;
-    sidecar["mask_intervals"] = spell(summarise(maskIntervals, refreshHz));
+    ordered_json& part = sidecar.contains("resumed") ? sidecar["resumed"].back() : sidecar;
+    part["mask_intervals"] = spell(summarise(maskIntervals, refreshHz));
 }
 
 } // namespace obscura

@@ -137,6 +137,15 @@ fault images-off-screen experiment/presenter.cpp \
 fault torn-table-kept experiment/recorder.cpp \
     's|file\.append\(whole\.substr\(content\.size\(\)\)\)|content.size()|' \
     experiment_test 'RecorderTest.*:Killed.*'
+fault finish-not-journalled experiment/recorder.cpp \
+    's|journal_\.append\(entry\("trial_finished"|if (trial % 2) &|' \
+    experiment_test 'Killed.*'
+fault half-seen-forgotten experiment/broken_session.cpp \
+    's|broken\.history\.push_back\(std::move\(past\)\);|if (one.answers) broken.history.push_back(std::move(past));|' \
+    experiment_test 'ResumeTest.*'
+fault slot-of-another experiment/ledger.cpp \
+    's|if \(!same\)|if (false \&\& !same)|' \
+    experiment_test 'ResumeRefused.*'
 fault ranges-forgotten experiment/form.cpp \
     's|number >= asked\.least \&\& number <= asked\.most|number >= asked.least|' \
     experiment_test 'FormTest.*'

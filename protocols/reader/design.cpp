@@ -92,10 +92,10 @@ json toJson(const Texts& texts) {
 
 // All that decides an order, and of that only what differs from how it was before there was a
 // choice: the designs of studies that run must not change. The planned number of participants
-// decides none.
+// and how long sessions can be gone on with decide none.
 json toJson(const Ordering& ordering) {
-    const auto& [scheme, participants, repeats, blocks, apart, practice, catches, catchEvery,
-                 breakEvery, staircase] = ordering;
+    const auto& [scheme, participants, resumeMinutes, repeats, blocks, apart, practice, catches,
+                 catchEvery, breakEvery, staircase] = ordering;
     const auto& [down, up, reversals, trials, answer] = staircase;
     const auto nameOf = [](Likeness one) { return likenessNames()[static_cast<std::size_t>(one)]; };
     json result = {{"scheme", orderSchemeNames()[static_cast<std::size_t>(scheme)]}};
@@ -226,15 +226,17 @@ Parts split(const Protocol& protocol) {
                         {"order of conditions", parts.order}};
     if (!parts.correct.empty())
         result.procedure["correct answers"] = parts.correct;
-    result.texts = {{"name", name},
-                    {"title", title},
-                    {"texts", toJson(words)},
-                    {"ordering", {{"participants", ordering.participants}}},
-                    {"simulation",
-                     {{"positionBias", positionBias},
-                      {"view", toJson(viewTime)},
-                      {"decision", toJson(decision)}}},
-                    {"conditions", parts.simulated}};
+    result.texts = {
+        {"name", name},
+        {"title", title},
+        {"texts", toJson(words)},
+        {"ordering",
+         {{"participants", ordering.participants}, {"resumeMinutes", ordering.resumeMinutes}}},
+        {"simulation",
+         {{"positionBias", positionBias},
+          {"view", toJson(viewTime)},
+          {"decision", toJson(decision)}}},
+        {"conditions", parts.simulated}};
     for (const Texts& translation : translations)
         result.texts["languages"][translation.language] = toJson(translation);
     split(views, parts.views, "scenes", result.stimuli, result.texts);

@@ -40,53 +40,48 @@ void checkTag(const std::string& tag, const Place& place) {
                 tag, isLanguageTag(hyphens) ? fmt::format("; did you mean \"{}\"?", hyphens) : ""));
 }
 
-// The table of a language, and the file that it may include: other studies may share that.
+// The file with the program's own texts in a language, or in that of which it is a kind: "de" for
+// "de-AT". "" where the program has none.
+std::string ownTexts(std::string tag) {
+    for (; !tag.empty(); tag.resize(tag.find_last_of('-') == tag.npos ? 0 : tag.find_last_of('-')))
+        for (const auto& entry : std::filesystem::directory_iterator(OBSCURA_LANGUAGES))
+            if (sameLanguage(entry.path().stem().string(), tag))
+                return entry.path().string();
+    return "";
+}
+
+// The table of a language, and below it what the program has of that language itself.
 class TextTable {
   public:
     explicit TextTable(TomlTable table) : table_(std::move(table)) {}
-    TextTable(const TextTable&) = delete; // included_ reads toml_
+    TextTable(const TextTable&) = delete; // program_ reads toml_
     TextTable& operator=(const TextTable&) = delete;
 
-    void include(std::string& includedSha256) {
-        const Place place = table_.placeOf(*table_.node("include"), table_.pathOf("include"));
-        const std::string file =
-            (std::filesystem::path(place.file).parent_path() / table_.text("include")).string();
-        std::string text;
-        try {
-            text = readFile(file);
-        } catch (const Error& error) {
-            throw Error(place, error.what());
-        }
-        toml_ = parseToml(text, file);
-        included_.emplace(toml_, file, "");
-        includedSha256 += sha256(text);
+    void setLanguage(const std::string& tag) {
+        const std::string file = ownTexts(tag);
+        if (file.empty())
+            return;
+        toml_ = parseToml(readFile(file), file);
+        program_.emplace(toml_, file, "");
     }
 
     TomlTable& own() { return table_; }
-    bool has(std::string_view key) {
-        const bool own = table_.has(key), included = included_ && included_->has(key);
-        return own || included;
-    }
-    // As the table has it, or else the file.
+    bool has(std::string_view key) { return table_.has(key) || (program_ && program_->has(key)); }
+    // As the protocol has it, or else the program.
     std::string text(std::string_view key) { return from(key).text(key); }
     Place placeOf(std::string_view key) {
         TomlTable& table = from(key);
         return table.placeOf(*table.node(key), table.pathOf(key));
     }
-    void finish() const {
-        table_.finish();
-        if (included_)
-            included_->finish();
-    }
 
   private:
     TomlTable& from(std::string_view key) {
-        return !table_.has(key) && included_ && included_->has(key) ? *included_ : table_;
+        return !table_.has(key) && program_ && program_->has(key) ? *program_ : table_;
     }
 
     TomlTable table_;
     toml::table toml_;
-    std::optional<TomlTable> included_;
+    std::optional<TomlTable> program_;
 };
 
 // Whether the key says something of the language. In a study of one it may be a text that a phase
@@ -94,20 +89,26 @@ class TextTable {
 bool isFree(const TomlTable& table, std::string_view key, const std::set<std::string>& named,
             bool several) {
     if (several && named.contains(std::string(key)))
-        throw Error(table.placeOf(key),
-                    fmt::format("a phase names the text \"{}\", but where there are several "
-                                "languages, \"language\", \"name\" and \"include\" are no texts; "
-                                "give it another key",
-                                key));
+        throw Error(
+            table.placeOf(key),
+            fmt::format("a phase names the text \"{}\", but where there are several "
+                        "languages, \"language\" and \"name\" are no texts; give it another key",
+                        key));
     return !named.contains(std::string(key));
 }
 
+Place placeOfName(TomlTable& table) {
+    if (const toml::node* name = table.node("name"))
+        return table.placeOf(*name, table.pathOf("name"));
+    Place place = table.place();
+    place.key = table.pathOf("name");
+    return place;
+}
+
 // Which language it is, unless `texts` knows already, and what those call it who speak it.
-void parseLanguage(TextTable& words, const std::set<std::string>& named, bool several, Texts& texts,
-                   std::string& includedSha256) {
+void parseLanguage(TextTable& words, const std::set<std::string>& named, bool several,
+                   Texts& texts) {
     TomlTable& table = words.own();
-    if (isFree(table, "include", named, several) && table.has("include"))
-        words.include(includedSha256);
     const auto read = [&](const char* key, std::string& text, std::string_view expected) {
         if (!isFree(table, key, named, several) || !(several || words.has(key)))
             return;
@@ -126,6 +127,7 @@ void parseLanguage(TextTable& words, const std::set<std::string>& named, bool se
         if (!texts.language.empty())
             checkTag(texts.language, texts.places["language"]);
     }
+    words.setLanguage(texts.language);
     read("name", texts.name, "the language's own name, such as \"English\"");
 }
 
@@ -153,14 +155,13 @@ void checkComplete(TextTable& words, const Texts& texts, const std::set<std::str
 }
 
 // Every text of the program's own, and those that the trial's phases name besides.
-Texts parseTexts(TomlTable table, std::set<std::string> named, bool several, std::string language,
-                 std::string& includedSha256) {
+Texts parseTexts(TomlTable table, std::set<std::string> named, bool several, std::string language) {
     Texts texts;
     texts.table = table.pathOf("");
     texts.table.pop_back(); // its full stop
     texts.language = std::move(language);
     TextTable words(std::move(table));
-    parseLanguage(words, named, several, texts, includedSha256);
+    parseLanguage(words, named, several, texts);
     checkComplete(words, texts, named);
     const auto read = [&](const std::string& key, std::string& text) {
         text = words.text(key);
@@ -173,7 +174,7 @@ Texts parseTexts(TomlTable table, std::set<std::string> named, bool several, std
         named.erase(std::string(key.name));
     for (const std::string& key : named)
         read(key, texts.own[key]);
-    words.finish();
+    words.own().finish();
     checkProgress(texts.progress, texts.places["progress"]);
     return texts;
 }
@@ -200,11 +201,10 @@ bool sameLanguage(std::string_view one, std::string_view other) {
     });
 }
 
-void parseLanguages(TomlTable& root, const std::set<std::string>& named, Protocol& protocol,
-                    std::string& includedSha256) {
+void parseLanguages(TomlTable& root, const std::set<std::string>& named, Protocol& protocol) {
     const bool several = root.has("languages");
-    protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"), named,
-                                several, "", includedSha256);
+    protocol.texts =
+        parseTexts(root.requiredTable("texts", "what participants read"), named, several, "");
     if (!several)
         return;
     for (auto& [tag, table] : root.tables("languages", "another language, [languages.TAG]")) {
@@ -214,8 +214,14 @@ void parseLanguages(TomlTable& root, const std::set<std::string>& named, Protoco
                 throw Error(table.place(), fmt::format("expected another language, found \"{}\" "
                                                        "again, which [{}] has",
                                                        tag, other->table));
-        protocol.translations.push_back(
-            parseTexts(std::move(table), named, true, tag, includedSha256));
+        Texts texts = parseTexts(table, named, true, tag);
+        for (const Texts* other : protocol.languages())
+            if (other->name == texts.name)
+                throw Error(placeOfName(table),
+                            fmt::format("expected another name, so that people can choose, found "
+                                        "\"{}\" again, which [{}] has",
+                                        texts.name, other->table));
+        protocol.translations.push_back(std::move(texts));
     }
 }
 

@@ -19,9 +19,8 @@ bool isLanguageTag(std::string_view tag);
 bool sameLanguage(std::string_view one, std::string_view other);
 
 // [texts] and each of [languages.TAG], which has the same keys: every text of the program's own,
-// and `named`, those that the trial names besides. In a language that is not English none is left
-// to its English default. Adds the hashes of files that the tables include.
-void parseLanguages(TomlTable& root, const std::set<std::string>& named, Protocol& protocol,
-                    std::string& includedSha256);
+// and `named`, those that the trial names besides. Of its own texts the program has translations
+// (protocols/languages); in a language that it does not know none is left to its English default.
+void parseLanguages(TomlTable& root, const std::set<std::string>& named, Protocol& protocol);
 
 } // namespace obscura

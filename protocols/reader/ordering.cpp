@@ -171,6 +171,7 @@ Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& con
     ordering.scheme = static_cast<OrderScheme>(
         table.choice("scheme", orderSchemeNames(), static_cast<std::size_t>(ordering.scheme)));
     ordering.participants = table.integer("participants", 1, 100000, ordering.participants);
+    ordering.resumeMinutes = table.integer("resumeMinutes", 0, 525600, ordering.resumeMinutes);
     if (ordering.scheme != OrderScheme::shuffle)
         refuse(table, {"apart"}, ordering.scheme);
     if (ordering.scheme == OrderScheme::staircase)

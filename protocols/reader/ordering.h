@@ -31,6 +31,7 @@ struct Staircase {
 struct Ordering {
     OrderScheme scheme = OrderScheme::williams;
     int participants = 28;          // planned; what --simulate runs when no number is given
+    int resumeMinutes = 60;         // after which nobody goes on with a session that broke off
     int repeats = 1;                // presentations of each condition to each participant
     std::optional<Likeness> blocks; // trials alike in this (scene or level) follow one another
     std::optional<Likeness> apart;  // trials of a block that are alike in this never do

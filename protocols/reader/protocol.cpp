@@ -285,7 +285,7 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
                                           questionsOf(phasesOf(protocol.trial)));
-    parseLanguages(root, textsOf(phasesOf(protocol.trial)), protocol, includedSha256);
+    parseLanguages(root, textsOf(phasesOf(protocol.trial)), protocol);
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();
@@ -321,6 +321,8 @@ std::span<const TextKey> textKeys() {
         {"idTaken", &Texts::idTaken},
         {"rehearsal", &Texts::rehearsal},
         {"untimed", &Texts::untimed},
+        {"resume", &Texts::resume},
+        {"otherId", &Texts::otherId},
     };
     return keys;
 }

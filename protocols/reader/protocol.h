@@ -67,6 +67,8 @@ struct Texts {
                           "pseudonym, or press Escape and start with another --session.";
     std::string rehearsal = "Rehearsal: answers do not count"; // above every page, and so is
     std::string untimed = "Untimed display: not suitable for data collection";
+    std::string resume = "This session broke off after {pair} of {pairs}. Go on from there?";
+    std::string otherId = "Another pseudonym";
 
     std::map<std::string, std::string, std::less<>> own; // texts that the trial's phases name, and
                                                          // that are none of the above

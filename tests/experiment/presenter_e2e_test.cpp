@@ -377,6 +377,63 @@ TEST_F(PresenterTest, AsksForTheParticipantOnScreen) {
     EXPECT_THAT(journal("p02"), HasSubstr("session_started"));
 }
 
+// Killed while the first image of pair 2 is on view; the experimenter types the id once more, is
+// asked, thinks better of it, and types it again.
+TEST_F(PresenterTest, ASessionThatBrokeOffGoesOnOnceConfirmed) {
+    open({});
+    test::Desktop desktop(width, height);
+    {
+        Program program(desktop.name(), arguments({"--participant", "p01"}), output);
+        begin(desktop, program);
+        runPair(desktop, program, 1, XK_2);
+        toFirst(desktop, program, 2);
+    } // killed
+    Program program(desktop.name(), arguments(), output);
+    seesId(desktop, program, "");
+    const Image8 question = drawn(resumePage(texts, 2, 7)).image;
+    for (const unsigned long answer : {XK_2, XK_1}) {
+        desktop.type("p01");
+        seesId(desktop, program, "p01");
+        desktop.tap(XK_Return);
+        sees(desktop, program, "go on?", question);
+        desktop.tap(answer);
+        if (answer == XK_2)
+            seesId(desktop, program, "");
+    }
+    begin(desktop, program);
+    for (int pair = 3; pair <= 7; ++pair)
+        runPair(desktop, program, pair, XK_1);
+    finish(desktop, program);
+    EXPECT_THAT(program.output(), HasSubstr("session 1 of p01 broke off"));
+    std::vector<int> numbers;
+    for (const Response& row : rows("p01"))
+        numbers.push_back(row.trialIndex);
+    EXPECT_THAT(numbers, testing::ElementsAre(1, 3, 4, 5, 6, 7));
+    EXPECT_THAT(journal("p01"), HasSubstr("\"trials\":2,\"half_seen\":[\"c2\"]"));
+    const auto slots = Ledger(dataFolder().ledger()).records();
+    ASSERT_EQ(slots.size(), 1u);
+    EXPECT_EQ(slots[0].state, SlotState::completed);
+}
+
+// On the command line it is to be asked for.
+TEST_F(PresenterTest, GoingOnIsConfirmedOnTheCommandLine) {
+    open({});
+    test::Desktop desktop(width, height);
+    {
+        Program program(desktop.name(), arguments({"--participant", "P01"}), output);
+        begin(desktop, program);
+        seesStart(desktop, program, 1);
+    }
+    {
+        Program program(desktop.name(), arguments({"--participant", "P01"}), output);
+        EXPECT_EQ(program.wait(), 1);
+        EXPECT_THAT(program.output(), HasSubstr("session 1 broke off; --resume goes on with it"));
+    }
+    Program program(desktop.name(), arguments({"--participant", "P01", "--resume"}), output);
+    begin(desktop, program);
+    seesStart(desktop, program, 1);
+}
+
 // The program is stopped while it loads, and started again until it could be.
 TEST_F(PresenterTest, WhileLoadingItSaysSoAndDropsKeys) {
     open({});
@@ -413,7 +470,9 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
                    "leaveNote = \"Antworten bleiben erhalten.\"\nstay = \"Weiter\"\n"
                    "end = \"Abbrechen\"\nrest = \"Pause\"\nid = \"Pseudonym, dann Eingabe\"\n"
                    "enter = \"Eingabe\"\ndone = \"Fertig\"\nbetween = \"Hinauf und hinunter.\"\n"
-                   "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"});
+                   "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"
+                   "rehearsal = \"Probe\"\nuntimed = \"Ungenau\"\n"
+                   "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"});
     for (const TextKey& key : textKeys()) {
         const std::string usual = Texts().*key.text;
         EXPECT_TRUE(usual.empty() || texts.*key.text != usual) << key.name;

@@ -175,13 +175,15 @@ TEST(Text, TheShippedProtocolsFitTheirScreens) {
             continue;
         ++found;
         const Protocol protocol = readProtocol(entry.path());
-        for (Page page : {instructionsPage(protocol.texts), startPage(protocol.texts, 7, 7),
-                          questionPage(protocol.texts), leavePage(protocol.texts),
-                          thanksPage(protocol.texts)}) {
-            page.warning = "Untimed display: not suitable for data collection";
-            EXPECT_NO_THROW(drawPage(unfocused(page, protocol.texts), protocol.width,
-                                     protocol.height, protocol.trial.grey))
-                << entry.path();
+        for (const Texts* words : protocol.languages()) {
+            EXPECT_NO_THROW(checkShowable(*words)) << entry.path();
+            for (Page page : {instructionsPage(*words), startPage(*words, 7, 7),
+                              questionPage(*words), leavePage(*words), thanksPage(*words)}) {
+                page.warning = words->untimed;
+                EXPECT_NO_THROW(drawPage(unfocused(page, *words), protocol.width, protocol.height,
+                                         protocol.trial.grey))
+                    << entry.path() << ' ' << words->language;
+            }
         }
     }
     EXPECT_GT(found, 0);
@@ -294,6 +296,19 @@ TEST(Text, RefusesTextsThatNoFontCanShow) {
             testing::ThrowsMessage<Error>(testing::HasSubstr(fmt::format(
                 "study.toml:12:9: texts.{}: no installed font can show U+0378", key.name))));
     }
+    Texts danish = texts;
+    danish.language = "da";
+    danish.table = "languages.da";
+    danish.leave += "\u0378";
+    danish.name = "Dansk";
+    EXPECT_THAT([&] { checkShowable(danish); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr(
+                    "languages.da.leave: no installed font can show U+0378 (the language is "
+                    "\"da\"); install")));
+    danish.leave.clear();
+    danish.name += "\u0378";
+    EXPECT_THAT([&] { checkShowable(danish); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("languages.da.name: no ")));
     Texts many = texts;
     for (int i = 0; i < 12; ++i)
         many.start += static_cast<char>(1 + (i > 7 ? i + 5 : i));
