@@ -59,8 +59,8 @@ class LanguageTest : public test::PresentedStudy {
         sees(desktop, program, "who takes part?", idPage(study.texts(), "", ""));
     }
     nlohmann::json sidecar(const std::string& participant) const {
-        const DataFolder folder(data, study.protocol);
-        return nlohmann::json::parse(readFile(folder.sidecar({participant, 1, false})));
+        const DataFolder own(data, study.protocol);
+        return nlohmann::json::parse(readFile(own.sidecar({participant, 1, false})));
     }
 };
 
@@ -154,7 +154,7 @@ TEST_F(LanguageTest, OfABrokenSessionIsTaken) {
         program.kill();
     }
     Program again(desktop.name(), arguments({"--participant", "P01", "--resume"}), output);
-    sees(desktop, again, "pair 1 of 7, start", test::startPage(study.texts(), 1, 7));
+    sees(desktop, again, "instructions", instructionsPage(study.texts()));
     EXPECT_EQ(sidecar("P01").at("language"), "de");
 }
 
@@ -201,8 +201,8 @@ name = "which"
 images = [1, 2]
 questions = [ { name = "c", text = "question", options = ["first", "second"], images = true } ]
 )");
-    for (std::string from : {"width = 320", "height = 180"})
-        text.replace(text.find(from), from.size(), from.replace(from.find('=') + 2, 3, "100"));
+    for (const std::string size : {"320", "180"})
+        text.replace(text.find("= " + size) + 2, 3, "100");
     writeFile(folder.path() / "form.toml", text);
     const Protocol protocol = readProtocol(folder.path() / "form.toml");
     test::writeNoiseStimuli(protocol, folder.path() / "small");

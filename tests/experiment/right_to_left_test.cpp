@@ -142,50 +142,45 @@ TEST(RightToLeft, NumbersStayWhole) {
               "x（\u20660\u2069–\u206620.5\u2069）");
 }
 
-// What is typed runs as its own letters do, the caret after them: "P01" and its caret look the same
-// on both pages, but stand on the side from which the page is read.
+// What is typed runs as its own letters do, the caret after them, and stands on the side from which
+// the page is read.
 TEST(RightToLeft, WhatIsTypedRunsAsItsOwnLetters) {
-    const auto typed = [&](const Texts& texts) {
-        const Image8 image = drawPage(idPage(texts, "P01", ""), width, height, 128).image;
-        std::vector<int> rows;
-        int left = width, right = 0, most = 0, middle = 0;
-        for (int y = 0; y < height; ++y) { // through the field: its two sides are the only ink
-            int first = -1, final = -1, count = 0;
-            for (int x = 0; x < width; ++x)
-                if (isInk(image, x, y)) {
-                    first = first < 0 ? x : first;
-                    final = x;
-                    ++count;
-                }
-            if (count > most) { // its upper or lower edge
-                most = count;
-                left = first;
-                right = final;
-                middle = y;
+    struct Ink {
+        int left, right, caret; // columns from the field's middle; the caret's is the fullest
+    };
+    const auto inkOf = [](const std::string& typed, bool fromRight) {
+        Page page;
+        page.rightToLeft = fromRight;
+        Page::Part part;
+        part.field = Page::Field{typed, true};
+        page.parts = {part};
+        const DrawnPage drawn = drawPage(page, width, height, 128);
+        const Box& box = drawn.options.at(0);
+        Ink ink{width, -width, 0};
+        int fullest = 0;
+        for (int x = box.x + 6; x < box.x + box.width - 6; ++x) {
+            int count = 0;
+            for (int y = box.y + 6; y < box.y + box.height - 6; ++y)
+                count += isInk(drawn.image, x, y);
+            const int column = x - box.x - box.width / 2;
+            if (count > 0)
+                ink = {std::min(ink.left, column), std::max(ink.right, column), ink.caret};
+            if (count > fullest) {
+                fullest = count;
+                ink.caret = column;
             }
         }
-        // Of what is within the field, and the tallest column, which is the caret's.
-        std::pair<int, int> ink{width, 0}, tallest{0, 0};
-        for (int x = left + 6; x < right - 6; ++x) {
-            int count = 0;
-            for (int y = std::max(0, middle - 70); y < std::min(height, middle + 70); ++y)
-                count += isInk(image, x, y) && std::abs(y - middle) > 6;
-            if (count > 0)
-                ink = {std::min(ink.first, x), std::max(ink.second, x)};
-            tallest = std::max(tallest, std::pair(count, x));
-        }
-        return std::array{left, ink.first, tallest.second, ink.second, right};
+        return ink;
     };
-    Texts bare = arabic, plain = english;
-    for (Texts* texts : {&bare, &plain})
-        texts->id = texts->idNote = "";
-    const auto [l, from, caret, to, r] = typed(bare);
-    EXPECT_GT(from, (l + r) / 2) << "on the right";
-    EXPECT_GT(caret, (from + to) / 2) << "after what is typed";
-    const auto [l2, from2, caret2, to2, r2] = typed(plain);
-    EXPECT_LT(to2, (l2 + r2) / 2);
-    EXPECT_GT(caret2, (from2 + to2) / 2);
-    EXPECT_NEAR(to - from, to2 - from2, 1);
+    for (const bool fromRight : {false, true}) {
+        const Ink latin = inkOf("P07-", fromRight), hebrew = inkOf("אבג", fromRight);
+        for (const Ink& ink : {latin, hebrew}) {
+            EXPECT_EQ(ink.left > 0, fromRight);
+            EXPECT_EQ(ink.right < 0, !fromRight);
+        }
+        EXPECT_GT(latin.caret, (latin.left + latin.right) / 2);
+        EXPECT_LT(hebrew.caret, (hebrew.left + hebrew.right) / 2);
+    }
 }
 
 } // namespace

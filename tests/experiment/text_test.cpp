@@ -223,20 +223,24 @@ TEST(Text, FromRightToLeftStaysOnItsCard) {
     for (const Texts* words : {&arabic, &hebrew, &mixed, &texts})
         for (const Size size : oddSizes) {
             const DrawnPage drawn = drawPage(questionPage(*words), size.width, size.height, 128);
-            const Box &one = drawn.options.at(0), &two = drawn.options.at(1);
+            Box one = drawn.options.at(0), two = drawn.options.at(1);
+            if (one.x > two.x)
+                std::swap(one, two);
             const auto [left, right] = inkedColumns(drawn.image, one.y, one.y + one.height);
             EXPECT_GT(left, one.x) << size.width;
             EXPECT_LT(right, two.x + two.width) << size.width;
-            // Each card holds its key, and right of it ink of its label.
-            for (const Box& box : {one, two}) {
-                int inked = 0;
-                for (int x = box.x + box.width / 2; x < box.x + box.width; ++x)
-                    for (int y = box.y; y < box.y + box.height; ++y)
-                        inked +=
-                            drawn.image.pixels[static_cast<std::size_t>((y * size.width + x) * 3)] <
-                            60;
-                EXPECT_GT(inked, 10) << size.width << ' ' << words->first;
-            }
+            // Each card holds its key, and beside it ink of its label.
+            for (const Box& box : {one, two})
+                for (const int half : {box.x, box.x + box.width / 2}) {
+                    int inked = 0;
+                    for (int x = half; x < half + box.width / 2; ++x)
+                        for (int y = box.y; y < box.y + box.height; ++y)
+                            inked +=
+                                drawn.image
+                                    .pixels[static_cast<std::size_t>((y * size.width + x) * 3)] <
+                                60;
+                    EXPECT_GT(inked, 10) << size.width << ' ' << words->first;
+                }
             for (int x = one.x + one.width + 2; x < two.x - 2; ++x)
                 for (int y = one.y; y < one.y + one.height; ++y)
                     ASSERT_EQ(
