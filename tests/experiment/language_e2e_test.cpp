@@ -141,6 +141,21 @@ TEST_F(LanguageTest, IsNotAskedForWhenItIsGiven) {
                                           "\"fr\"; it has en, ar, de"));
 }
 
+// Whichever is chosen: that it cannot be shown is no surprise for a participant.
+TEST_F(LanguageTest, EveryOneMustBeShowable) {
+    std::string text = readFile(study.protocol.path);
+    text.replace(text.find("Danke."), 6, "Danke \\u0378");
+    writeFile(study.protocol.path, text);
+    test::Desktop desktop(width, height);
+    Program program(desktop.name(), arguments({"--language", "en", "--participant", "P01"}),
+                    output);
+    EXPECT_EQ(program.wait(), 1);
+    EXPECT_THAT(program.output(), HasSubstr("tiny.toml:"));
+    EXPECT_THAT(program.output(), HasSubstr("languages.de.thanks: no installed font can show "
+                                            "U+0378 (the language is \"de\")"));
+    EXPECT_FALSE(fs::exists(data)) << "no slot was claimed";
+}
+
 // A session that broke off goes on as it was.
 TEST_F(LanguageTest, OfABrokenSessionIsTaken) {
     test::Desktop desktop(width, height);
