@@ -1,6 +1,6 @@
 #include "analysis/conduct.h"
 
-#include "analysis/frequencies.h"
+#include "inference/counts.h"
 #include "base/percentile.h"
 
 #include <fmt/format.h>

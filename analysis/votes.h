@@ -1,7 +1,7 @@
 #pragma once
 
 #include "analysis/answers.h"
-#include "analysis/frequencies.h"
+#include "inference/counts.h"
 #include "protocols/reader/manifest.h"
 
 #include <filesystem>

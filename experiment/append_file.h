@@ -7,6 +7,8 @@ namespace obscura {
 
 // A text file that only grows, by whole lines, each of them on disk before append() returns. A
 // line that cannot be written to its end is taken out again, so a full disk leaves no half line.
+// When the file has been moved or removed meanwhile, all that it held is saved in the system's
+// folder for temporary files, and the Error says where.
 class AppendFile {
   public:
     // A new file that begins with these lines, and is never seen without them. An Error when one
@@ -29,9 +31,12 @@ class AppendFile {
   private:
     AppendFile(std::filesystem::path path, int flags, std::string_view what);
     void mendLastLine(IsWhole whole);
+    bool isInPlace() const;
+    const std::filesystem::path& rescued();
     [[noreturn]] void fail(std::string_view what) const;
 
     std::filesystem::path path_;
+    std::filesystem::path rescued_; // where its content was saved; "" for nowhere
     int descriptor_ = -1;
 };
 

@@ -4,20 +4,23 @@
 #include "base/progress.h"
 #include "base/version.h"
 #include "experiment/broken_session.h"
+#include "experiment/check.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/language.h"
 #include "experiment/ledger.h"
 #include "experiment/ledger_command.h"
 #include "experiment/presenter.h"
+#include "experiment/preview.h"
 #include "experiment/recorder.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
-#include "experiment/timing_report.h"
+#include "experiment/simulated.h"
+#include "experiment/timing_command.h"
+#include "experiment/visual.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <unistd.h>
 
 #include <algorithm>
@@ -40,15 +43,15 @@ struct Arguments {
     int monitor = 1;
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
-    bool simulate = false, resume = false;
+    bool simulate = false, visual = false, resume = false;
     int simulated = 0; // how many; 0 as the protocol plans
     std::optional<std::uint64_t> seed;
+    fs::path preview;
+    bool check = false;
+    std::string size = "1920x1080"; // of a screen that nobody looks at
     LedgerCommand ledger;
     bool photodiode = false;
-    int masks = 1000; // with timing
-    double seconds = 2;
-    bool json = false;
-    fs::path out;
+    TimingArguments timing;
 };
 
 CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
@@ -68,17 +71,17 @@ CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
 void declareTiming(CLI::App& app, Arguments& arguments) {
     CLI::App* timing = app.add_subcommand(
         "timing", "Hold grey masks between images as a trial does, and say how long they were");
-    timing->add_option("--masks", arguments.masks, "How many")
+    timing->add_option("--masks", arguments.timing.masks, "How many")
         ->type_name("N")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
-    timing->add_option("--seconds", arguments.seconds, "How long each")
+    timing->add_option("--seconds", arguments.timing.seconds, "How long each")
         ->type_name("S")
         ->check(CLI::Range(0.01, 3600.0))
         ->capture_default_str();
-    timing->add_flag("--json", arguments.json, "Print JSON instead of a table");
+    timing->add_flag("--json", arguments.timing.json, "Print JSON instead of a table");
     timing
-        ->add_option("--out", arguments.out,
+        ->add_option("--out", arguments.timing.out,
                      "Also write timing.json, and masks.csv with a line for each mask")
         ->type_name("DIR");
     declareScreen(*timing, arguments);
@@ -131,6 +134,23 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "Seed of the simulated participants; the protocol's when not given")
         ->type_name("S")
         ->needs(simulate);
+    app.add_flag("--visual", arguments.visual,
+                 "Run them through the real window, full screen, by keys that they press")
+        ->needs(simulate);
+    CLI::Option* preview =
+        app.add_option("--preview", arguments.preview,
+                       "Draw every screen of a trial, and the pages around it, on one sheet (PNG), "
+                       "without a window")
+            ->type_name("FILE")
+            ->excludes(windowed, rehearse, simulate);
+    app.add_flag("--check", arguments.check,
+                 "Prove that the study can be run to its end: all fits on the screen, and "
+                 "simulated participants finish every slot. Needs no stimuli; given --stimuli, "
+                 "their files are checked too")
+        ->excludes(windowed, rehearse, simulate, preview);
+    app.add_option("--size", arguments.size, "Of the screen, with --preview and --check")
+        ->type_name("WxH")
+        ->capture_default_str();
 
     declareLedger(app, arguments.ledger);
     declareTiming(app, arguments);
@@ -153,39 +173,55 @@ void checkFolder(const DataFolder& folder, const Study& study) {
         fmt::print(stderr, "obscura-experiment: {}\n", unknown);
 }
 
-int simulate(const Arguments& arguments, const Study& study) {
-    verifyStimuli(study.manifest);
-    const Protocol& protocol = study.protocol;
-    const DataFolder folder(arguments.data, protocol);
-    checkFolder(folder, study);
-    const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
-    Progress progress("simulated participants", count);
-    for (int i = 1; i <= count; ++i) {
-        const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
-        if (const std::string problem = objection(folder, session); !problem.empty())
-            throw Error(problem + "; or another data folder: --data DIR");
-        SimulatedObserver observer(protocol, arguments.seed.value_or(protocol.seed),
-                                   session.participant);
-        runSession(study, folder, session, observer);
-        progress.update(i, session.participant);
-    }
-    return 0;
-}
-
-gl::WindowOptions::Size sizeOf(const std::string& text) {
+gl::WindowOptions::Size sizeOf(const std::string& option, const std::string& text) {
     const auto size = parsePair(text, 'x');
     if (!size || std::max(size->first, size->second) > 16384)
         throw Error(
-            fmt::format("--windowed: expected a size such as 1280x800, found \"{}\"", text));
+            fmt::format("{}: expected a size such as 1280x800, found \"{}\"", option, text));
     return {size->first, size->second};
 }
 
 gl::WindowOptions windowOptions(const Arguments& arguments) {
     gl::WindowOptions options{"Obscura", arguments.monitor, std::nullopt, throwIfEnded};
     if (arguments.windowed)
-        options.windowed = arguments.windowSize.empty() ? gl::WindowOptions::Size{1280, 800}
-                                                        : sizeOf(arguments.windowSize);
+        options.windowed = arguments.windowSize.empty()
+                               ? gl::WindowOptions::Size{1280, 800}
+                               : sizeOf("--windowed", arguments.windowSize);
     return options;
+}
+
+DisplayOptions displayOptions(const Arguments& arguments, const Study& study) {
+    return {windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode};
+}
+
+int simulate(const Arguments& arguments, const Study& study) {
+    verifyStimuli(study.manifest);
+    const Protocol& protocol = study.protocol;
+    const DataFolder folder(arguments.data, protocol);
+    checkFolder(folder, study);
+    const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
+    std::optional<Display> display;
+    std::optional<Presenter> presenter;
+    if (arguments.visual) {
+        display.emplace(displayOptions(arguments, study), curtain(study));
+        presenter.emplace(*display, study, "Simulated participant: answers do not count");
+    }
+    Progress progress("simulated participants", count);
+    for (int i = 1; i <= count; ++i) {
+        const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
+        if (const std::string problem = objection(folder, session); !problem.empty())
+            throw Error(problem + "; or another data folder: --data DIR");
+        const std::uint64_t seed = arguments.seed.value_or(protocol.seed);
+        if (presenter) {
+            VisualObserver observer(*presenter, protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        } else {
+            SimulatedObserver observer(protocol, seed, session.participant);
+            runSession(study, folder, session, observer);
+        }
+        progress.update(i, session.participant);
+    }
+    return 0;
 }
 
 // Which text stands above every page, and on stderr: the session is no measurement; or none. An
@@ -280,8 +316,7 @@ int present(const Arguments& arguments, Study& study) {
     if (!arguments.participant.empty())
         checkParticipant(arguments, study, folder, sessionOf(arguments.participant));
 
-    Display display({windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode},
-                    curtain(study));
+    Display display(displayOptions(arguments, study), curtain(study));
     std::string Texts::*const above = warning(arguments, display);
     if (study.language.empty() && arguments.resume && !arguments.participant.empty())
         study.language =
@@ -313,36 +348,26 @@ int present(const Arguments& arguments, Study& study) {
     return 0;
 }
 
-Image8 greyScreen(int width, int height) {
-    const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 3;
-    return {width, height, 3, std::vector<std::uint8_t>(size, 128)};
+int check(const Arguments& arguments) {
+    const auto [width, height] = sizeOf("--size", arguments.size);
+    std::string found = checkRuns(readProtocol(arguments.protocol), width, height);
+    if (!arguments.stimuli.empty()) {
+        const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        verifyStimuli(study.manifest);
+        found += fmt::format("; {} images are as made", imageCount(study.protocol));
+    }
+    fmt::print("{}\n", found);
+    return 0;
 }
 
-void report(const Arguments& arguments, const TimingRun& timing, const Display& display) {
-    nlohmann::ordered_json json = spell(timing);
-    display.describe(json);
-    fmt::print("{}", arguments.json ? json.dump(2) + "\n" : inWords(timing));
-    if (arguments.out.empty())
-        return;
-    writeFile(arguments.out / "timing.json", json.dump(2) + "\n");
-    writeFile(arguments.out / "masks.csv", csv(timing));
+int preview(const Arguments& arguments, const Study& study) {
+    const auto [width, height] = sizeOf("--size", arguments.size);
+    writePng(arguments.preview, previewSheet(study, width, height));
+    return 0;
 }
 
 int timing(const Arguments& arguments) {
-    Display display({windowOptions(arguments), 128, arguments.photodiode}, greyScreen);
-    fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
-    TimingRun timing;
-    timing.seconds = arguments.seconds;
-    int status = 0;
-    try {
-        Progress progress("masks", arguments.masks);
-        holdMasks(display, arguments.masks, timing, [&](int done) { progress.update(done); });
-    } catch (const EndedBySignal& ended) {
-        timing.ended = "ended by " + ended.name();
-        status = ended.exitStatus();
-    }
-    report(arguments, timing, display);
-    return status;
+    return holdAndReport({windowOptions(arguments), 128, arguments.photodiode}, arguments.timing);
 }
 
 int run(int argc, char** argv) {
@@ -363,14 +388,18 @@ int run(int argc, char** argv) {
         return editLedger(arguments.ledger);
     heedSignals();
     const bool times = app.got_subcommand("timing");
-    if (!times && (arguments.protocol.empty() || arguments.stimuli.empty()))
+    if (!times && (arguments.protocol.empty() || (arguments.stimuli.empty() && !arguments.check)))
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
         if (times)
             return timing(arguments);
+        if (arguments.check)
+            return check(arguments);
         Study study = openStudy(arguments.protocol, arguments.stimuli);
         if (!arguments.language.empty())
             study.language = languageNamed(study.protocol, arguments.language);
+        if (!arguments.preview.empty())
+            return preview(arguments, study);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);
     } catch (const EndedBySignal& ended) {
         fmt::print(stderr, "obscura-experiment: ended by {}; answers so far are kept\n",

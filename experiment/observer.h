@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/random.h"
 #include "experiment/refresh.h"
 #include "experiment/selection.h"
 #include "experiment/study.h"
@@ -40,38 +39,6 @@ class Observer {
     virtual std::vector<Event> events(bool wait) = 0;
     virtual bool rest() = 0; // between trials; false when the person leaves instead of going on
     virtual void thank() = 0;
-};
-
-// The model, for dry runs and power studies; docs/measurement.md has it in words. The probability
-// of choosing the second image is that of preferring the member shown second (the protocol's
-// choose_b, or one minus it), plus the position bias, within [0, 1]. Looking and deciding take
-// ex-Gaussian times. The same seed and participant always do the same.
-class SimulatedObserver : public Observer {
-  public:
-    SimulatedObserver(const Protocol& protocol, std::uint64_t seed, const std::string& participant);
-
-    Refresh refresh() const override;
-    void describe(nlohmann::ordered_json& sidecar) const override;
-    bool instruct() override { return true; }
-    void prepare(const Upcoming& trial) override;
-    double show(const TrialMachine& trial) override; // at the next refresh of a 60 Hz clock
-    std::vector<Event> events(bool wait) override;
-    bool rest() override { return true; }
-    void thank() override {}
-
-  private:
-    std::vector<Event> press(gl::Key key, double after);
-    std::vector<Event> answer(const Form& form);
-    std::vector<Event> type(const Question& question, double after);
-    double draw(const ExGaussian& time);
-
-    const Protocol& protocol_;
-    const std::vector<Phase> phases_;
-    std::uint64_t seed_;
-    Random random_;
-    double chooseSecond_ = 0.5;
-    const TrialMachine* trial_ = nullptr; // what it shows
-    double clock_ = 0;
 };
 
 } // namespace obscura

@@ -160,7 +160,11 @@ Page::Part partOf(const Texts& texts, const Form& form, std::size_t index) {
 
 Page::Pictures roomFor(const Phase& phase, int width, int height) {
     Page::Pictures pictures{static_cast<int>(phase.images.size()), width, height};
-    if (phase.images.size() > 1)
+    const bool meant =
+        std::any_of(phase.questions.begin(), phase.questions.end(), [](const Question& question) {
+            return question.images || question.kind == Question::Kind::rank;
+        });
+    if (meant && phase.images.size() > 1)
         for (const std::string& image : phase.images)
             pictures.names.push_back(image.find_first_not_of("0123456789") == image.npos ? image
                                                                                          : "");

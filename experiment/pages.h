@@ -20,8 +20,8 @@ Page resumePage(const Texts& texts, int trial, int trials);
 Page instructionsPage(const Texts& texts);
 // Of a phase of text; `pair` of `pairs` stands above it where the phase shows progress.
 Page textPage(const Texts& texts, const Phase& phase, int pair, int pairs);
-// What a phase of questions leaves free for its images, all of one size. Below each of several that
-// the trial puts in order stands its place, the number that answers have for it.
+// What a phase of questions leaves free for its images, all of one size. Where answers mean images,
+// below each of several that the trial puts in order stands its place, the number that they have.
 Page::Pictures roomFor(const Phase& phase, int width, int height);
 // Of a phase that asks, as far as it is answered, with room for the images that it shows.
 Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures);

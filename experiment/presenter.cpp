@@ -17,13 +17,6 @@ namespace {
 constexpr double progressInterval = 0.1; // seconds
 constexpr const char* idTitle = "who takes part?";
 
-int imageCount(const Study& study) {
-    int count = 0;
-    for (const ConditionRecord& condition : study.manifest.conditions)
-        count += static_cast<int>(condition.images.size());
-    return count;
-}
-
 gl::Picture upload(const Image8& image) {
     return {image.width, image.height, image.channels, image.pixels};
 }
@@ -47,52 +40,27 @@ Curtain curtain(const Study& study) {
     for (const Texts* texts : study.protocol.languages())
         checkShowable(*texts);
     return [&study](int width, int height) {
-        const Page page = loadingPage(study.texts(), 0, imageCount(study));
+        const Page page = loadingPage(study.texts(), 0, imageCount(study.protocol));
         return drawPage(page, width, height, study.protocol.trial.grey).image;
     };
 }
 
 Presenter::Presenter(Display& display, const Study& study, std::string warning)
-    : display_(display), study_(study), texts_(study.texts()), warning_(std::move(warning)),
+    : display_(display), study_(study), texts_(study.texts()),
+      screens_(study.protocol, study.texts(), display.window().width(), display.window().height(),
+               std::move(warning)),
       phases_(phasesOf(study.protocol.trial)), prepared_(phases_.size()) {
-    checkFits();
+    screens_.check(); // what does not fit should stop the session before it begins
     leave_ = sheet(leavePage(texts_), "asked whether to end");
     loadImages();
     for (std::size_t i = 0; i < phases_.size(); ++i)
-        if (!phases_[i].questions.empty()) {
-            prepared_[i].sheet = formSheet(Form(phases_[i].questions, places()), phases_[i]);
+        if (const Phase& phase = phases_[i]; !phase.questions.empty()) {
+            prepared_[i].sheet = uploaded(screens_.phase(phase, 1, 1), "");
             display_.warmUp(prepared_[i].sheet->picture);
-        } else if (!phases_[i].text.empty() && !phases_[i].progress) {
-            prepared_[i].sheet = sheet(textPage(texts_, phases_[i], 1, 1), "");
+        } else if (!phase.text.empty() && !phase.progress) {
+            prepared_[i].sheet = uploaded(screens_.phase(phase, 1, 1), "");
         }
     display_.window().poll(); // what was pressed meanwhile was meant for nobody
-}
-
-// Texts that do not fit, and images beside each other, should stop the session before it begins.
-// Texts need most room while another window has the keyboard.
-void Presenter::checkFits() const {
-    const int pairs = longest(study_.protocol), images = imageCount(study_);
-    const gl::Window& window = display_.window();
-    std::vector<Page> pages = {loadingPage(texts_, images, images),
-                               idPage(texts_, "", texts_.idMalformed),
-                               idPage(texts_, "", texts_.idTaken),
-                               instructionsPage(texts_),
-                               restPage(texts_),
-                               leavePage(texts_),
-                               resumePage(texts_, pairs, pairs),
-                               thanksPage(texts_)};
-    for (const Phase& phase : phases_)
-        if (!phase.questions.empty())
-            pages.push_back(formPage(texts_, Form(phase.questions, places()), room(phase)));
-        else if (!phase.text.empty())
-            pages.push_back(textPage(texts_, phase, pairs, pairs));
-        else if (!phase.images.empty())
-            gridOn(phase);
-    for (Page& page : pages) {
-        page.warning = warning_;
-        drawPage(unfocused(page, texts_), window.width(), window.height(),
-                 study_.protocol.trial.grey);
-    }
 }
 
 // Files are read and decoded by as many threads as there are cores, no further ahead than that.
@@ -131,41 +99,23 @@ void Presenter::loadImages() {
 }
 
 Presenter::Sheet Presenter::sheet(Page page, std::string title) const {
-    page.warning = warning_;
-    return drawn(std::move(page), std::move(title));
+    return uploaded(screens_.page(std::move(page)), std::move(title));
 }
 
-Presenter::Sheet Presenter::drawn(Page page, std::string title) const {
-    const gl::Window& window = display_.window();
-    auto [image, options, places] =
-        drawPage(page, window.width(), window.height(), study_.protocol.trial.grey);
-    const bool mirrored = page.rightToLeft;
-    return {
-        std::move(page), std::move(title), upload(image), std::move(options), std::move(places), {},
-        mirrored};
-}
-
-Presenter::Sheet Presenter::formSheet(const Form& form, const Phase& phase) const {
-    Sheet result = sheet(formPage(texts_, form, room(phase)), "");
-    result.images = phase.images;
-    const auto focus = static_cast<std::size_t>(form.focus());
-    result.mirrored &=
-        !(result.page.parts.empty() ? result.page.ofImages : result.page.parts[focus].ofImages);
-    return result;
-}
-
-Page::Pictures Presenter::room(const Phase& phase) const {
-    return roomFor(phase, study_.manifest.width, study_.manifest.height);
+Presenter::Sheet Presenter::uploaded(Screenful screen, std::string title) const {
+    gl::Picture picture = upload(screen.drawn->image);
+    screen.drawn->image = {}; // it is in graphics memory
+    return {std::move(screen), std::move(title), std::move(picture)};
 }
 
 const gl::Picture& Presenter::picture(const std::string& image) const {
     return pictures_.at(static_cast<std::size_t>(trial_.planned.condition)).at(trial_.role(image));
 }
 
-std::vector<Placed> Presenter::placedOn(const Sheet& sheet) const {
-    std::vector<Placed> placed = {{&sheet.picture, 0, 0}};
-    for (std::size_t i = 0; i < sheet.images.size(); ++i)
-        placed.push_back({&picture(sheet.images[i]), sheet.places[i].x, sheet.places[i].y});
+std::vector<Placed> Presenter::placed(const Screenful& screen) const {
+    std::vector<Placed> placed;
+    for (std::size_t i = 0; i < screen.images.size(); ++i)
+        placed.push_back({&picture(screen.images[i]), screen.places[i].x, screen.places[i].y});
     return placed;
 }
 
@@ -174,12 +124,12 @@ double Presenter::showSheet(const Sheet& page) {
     title_ = page.title;
     display_.window().showCursor(true);
     focused_ = display_.window().focused();
-    if (!focused_) {
-        unfocused_ = drawn(unfocused(page.page, texts_), page.title);
-        unfocused_.images = page.images;
-    }
-    return display_.show(placedOn(focused_ ? page : unfocused_), study_.protocol.trial.grey,
-                         !page.images.empty());
+    if (!focused_)
+        unfocused_ = uploaded(screens_.unfocused(page.screen), page.title);
+    const Sheet& shown = focused_ ? page : unfocused_;
+    std::vector<Placed> all = placed(shown.screen);
+    all.insert(all.begin(), {&shown.picture, 0, 0});
+    return display_.show(all, shown.screen.grey, !page.screen.images.empty());
 }
 
 double Presenter::showImages(std::span<const Placed> images, int grey) {
@@ -188,37 +138,6 @@ double Presenter::showImages(std::span<const Placed> images, int grey) {
     grey_ = grey;
     display_.window().showCursor(false);
     return display_.show(images_, grey_, !images_.empty());
-}
-
-// Places beside each other in the middle of the screen, or one where images are shown in turn.
-std::vector<Box> Presenter::gridOn(const Phase& phase) const {
-    const gl::Window& window = display_.window();
-    Page::Pictures pictures = room(phase);
-    if (phase.alternate > 0)
-        pictures.count = 1;
-    std::vector<Box> boxes = gridOf(pictures, window.width(), 0);
-    const int height = boxes.back().y + boxes.back().height;
-    if (boxes.front().x < 0 || height > window.height())
-        throw Error(
-            phase.place,
-            fmt::format("{} images of {}x{} pixels do not fit beside each other on a screen "
-                        "of {}x{}, and are never scaled; choose a larger monitor "
-                        "(--monitor), or a smaller image size in the protocol",
-                        pictures.count, pictures.width, pictures.height, window.width(),
-                        window.height()));
-    for (Box& box : boxes)
-        box.y += (window.height() - height) / 2;
-    return boxes;
-}
-
-std::vector<Placed> Presenter::placed(const Phase& phase) const {
-    const std::vector<Box> boxes = gridOn(phase);
-    std::vector<Placed> result;
-    for (std::size_t i = 0; i < phase.images.size(); ++i) {
-        const Box& box = boxes[std::min(i, boxes.size() - 1)];
-        result.push_back({&picture(phase.images[i]), box.x, box.y});
-    }
-    return result;
 }
 
 void Presenter::announce() {
@@ -234,7 +153,10 @@ std::vector<gl::Input> Presenter::inputs() {
     if (sheet_ && focused_ != display_.window().focused())
         showSheet(*sheet_);
     announce();
-    std::vector<gl::Input> inputs = display_.window().wait();
+    std::vector<gl::Input> inputs;
+    do
+        inputs = attend_ ? display_.window().wait(attend_()) : display_.window().wait();
+    while (inputs.empty());
     const bool uncovered = std::any_of(inputs.begin(), inputs.end(), [](const gl::Input& input) {
         return input.kind == gl::Input::Kind::exposed;
     });
@@ -247,7 +169,7 @@ std::vector<gl::Input> Presenter::inputs() {
 
 // The arrow to the right means the option on the right: on a page from right to left, the first.
 gl::Key Presenter::asRead(gl::Key key) const {
-    if (!sheet_ || !sheet_->mirrored)
+    if (!sheet_ || !sheet_->screen.mirrored)
         return key;
     return key == gl::Key::left ? gl::Key::right : key == gl::Key::right ? gl::Key::left : key;
 }
@@ -289,14 +211,14 @@ Event Presenter::clicked(const gl::Input& input) const {
     Event event{Event::Kind::option, input.time};
     if (!sheet_)
         return event;
-    const auto& boxes = focused_ ? sheet_->options : unfocused_.options;
+    const auto& boxes = (focused_ ? *sheet_ : unfocused_).screen.drawn->options;
     const auto found = std::find_if(boxes.begin(), boxes.end(),
                                     [&](const Box& box) { return box.contains(input.x, input.y); });
     if (found == boxes.end())
         return event;
     event.option = static_cast<int>(found - boxes.begin()) + 1;
     event.share = (input.x - found->x + 0.5) / found->width;
-    if (sheet_->page.rightToLeft)
+    if (sheet_->screen.page.rightToLeft)
         event.share = 1 - event.share;
     return event;
 }
@@ -407,11 +329,14 @@ void Presenter::prepare(const Upcoming& trial) {
                 : fmt::format("pair {} of {}, {}{}", trial.index, trial.count, phase.name,
                               phase.questions.empty() && phase.text.empty() ? " image" : "");
         if (phase.progress && !phase.text.empty())
-            prepared.sheet = sheet(textPage(texts_, phase, trial.index, trial.count), "");
-        if (prepared.sheet)
+            prepared.sheet = uploaded(screens_.phase(phase, trial.index, trial.count), "");
+        if (prepared.sheet) {
             prepared.sheet->title = prepared.title;
-        else if (!phase.images.empty())
-            prepared.images = placed(phase);
+            continue;
+        }
+        const Screenful screen = screens_.phase(phase, trial.index, trial.count);
+        prepared.images = placed(screen);
+        prepared.grey = screen.grey;
     }
 }
 
@@ -423,8 +348,8 @@ double Presenter::show(const TrialMachine& trial) {
     const Prepared& prepared = prepared_[index];
     if (const Form* form = trial.form(); form && form->changes() > 0) {
         if (drawn_ != std::pair(index, form->changes())) { // not at every refresh of a timed page
-            answered_ = formSheet(*form, phase);
-            answered_.title = prepared.title;
+            answered_ =
+                uploaded(screens_.phase(phase, trial_.index, trial_.count, *form), prepared.title);
             drawn_ = {index, form->changes()};
         }
         return showSheet(answered_);
@@ -436,7 +361,7 @@ double Presenter::show(const TrialMachine& trial) {
     std::span<const Placed> images = prepared.images;
     if (phase.alternate > 0)
         images = images.subspan(static_cast<std::size_t>(trial.alternation()), 1);
-    return showImages(images, phase.grey >= 0 ? phase.grey : study_.protocol.trial.grey);
+    return showImages(images, prepared.grey);
 }
 
 } // namespace obscura

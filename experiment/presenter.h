@@ -2,7 +2,7 @@
 
 #include "experiment/display.h"
 #include "experiment/observer.h"
-#include "experiment/text.h"
+#include "experiment/screens.h"
 
 #include <functional>
 #include <map>
@@ -41,6 +41,12 @@ class Presenter : public Observer {
     // off, until the experimenter confirms that it goes on; nothing when Escape was pressed.
     std::optional<std::string> askId(const std::function<IdVerdict(const std::string&)>& judge);
 
+    // For one who is not a person: called before the presenter sleeps, with all on the screen, and
+    // again after the seconds that it returns, should nothing arrive before.
+    void whileWaiting(std::function<double()> attend) { attend_ = std::move(attend); }
+    double now() const { return display_.window().now(); }
+    bool hasKeyboard() const { return display_.window().focused(); }
+
     Refresh refresh() const override { return display_.refresh(); }
     void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
     bool instruct() override;
@@ -51,37 +57,28 @@ class Presenter : public Observer {
     void thank() override;
 
   private:
-    // A page in graphics memory, and where its options are.
+    // A page in graphics memory.
     struct Sheet {
-        Page page;
+        Screenful screen;
         std::string title; // of the window
         gl::Picture picture;
-        std::vector<Box> options;
-        std::vector<Box> places;         // of images on it,
-        std::vector<std::string> images; // and which: by place or role
-        bool mirrored = false;           // its first option, or a slider's low end, is on the right
     };
 
     // What a phase shows, so that showing it is nothing but drawing.
     struct Prepared {
         std::optional<Sheet> sheet; // of a page of text, and of questions not yet answered
         std::vector<Placed> images;
+        int grey = 0;      // behind them
         std::string title; // of the window; "" leaves it as it is
     };
 
     Sheet sheet(Page page, std::string title) const; // with the warning above it
-    Sheet drawn(Page page, std::string title) const;
-    void checkFits() const;
+    Sheet uploaded(Screenful screen, std::string title) const;
     void loadImages();
     double showSheet(const Sheet& sheet);
     double showImages(std::span<const Placed> images, int grey);
-    std::vector<Placed> placedOn(const Sheet& sheet) const;
     const gl::Picture& picture(const std::string& image) const;
-    std::vector<Box> gridOn(const Phase& phase) const;
-    std::vector<Placed> placed(const Phase& phase) const;
-    Sheet formSheet(const Form& form, const Phase& phase) const;
-    Page::Pictures room(const Phase& phase) const;
-    int places() const { return static_cast<int>(study_.protocol.trial.order.size()); }
+    std::vector<Placed> placed(const Screenful& screen) const;
     void announce();
     std::vector<gl::Input> inputs();
     gl::Key asRead(gl::Key key) const;
@@ -96,7 +93,7 @@ class Presenter : public Observer {
     Display& display_;
     const Study& study_;
     const Texts& texts_;
-    std::string warning_;
+    Screens screens_;
     std::vector<Phase> phases_;
     std::vector<std::map<std::string, gl::Picture>> pictures_; // by condition and role
     Sheet leave_;
@@ -113,6 +110,7 @@ class Presenter : public Observer {
     Sheet unfocused_;       // this in its place
     std::string title_;     // what is on the screen, and
     std::string announced_; // what the window's title says
+    std::function<double()> attend_;
 };
 
 } // namespace obscura

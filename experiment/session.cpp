@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "experiment/continuity.h"
+#include "experiment/play.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
 #include "experiment/selection.h"
@@ -18,65 +19,6 @@ namespace obscura {
 using nlohmann::ordered_json;
 
 namespace {
-
-// True when answered, false when the person left. A picture is shown, then all that arrived while
-// it was on its way is handled, and only then does the machine learn that it came on: so a key
-// pressed before it cannot be taken for an answer to it. A picture that only replaces one of the
-// same screen has been on: what arrives meanwhile is an answer to it, and may lead to the next.
-bool play(TrialMachine& machine, Observer& observer, Recorder& recorder, int trial,
-          const std::string& condition) {
-    for (;;) {
-        throwIfEnded();
-        switch (machine.next()) {
-        case TrialMachine::Next::journal:
-            recorder.trialStarted(trial, condition);
-            machine.journalled();
-            break;
-        case TrialMachine::Next::present: {
-            const bool anew = machine.isOn();
-            const double time = observer.show(machine);
-            if (anew)
-                machine.shown(time);
-            for (const Event& event : observer.events(false))
-                machine.handle(event);
-            if (!anew)
-                machine.shown(time);
-            break;
-        }
-        case TrialMachine::Next::wait:
-            for (const Event& event : observer.events(true))
-                machine.handle(event);
-            break;
-        case TrialMachine::Next::finished:
-            return true;
-        case TrialMachine::Next::left:
-            return false;
-        }
-    }
-}
-
-// The roles at the places 1, 2 and so on.
-std::vector<std::string> placed(const std::vector<std::string>& roles,
-                                const std::vector<int>& order) {
-    std::vector<std::string> result(order.size());
-    std::transform(order.begin(), order.end(), result.begin(),
-                   [&](int role) { return roles[static_cast<std::size_t>(role)]; });
-    return result;
-}
-
-// What an order may depend on: each answer as it was given, but of images the role in place of the
-// number.
-PastTrial remember(const std::vector<Phase>& phases, const Upcoming& trial,
-                   const TrialRecord& record) {
-    PastTrial past{trial.planned, {}, record.interrupted};
-    for (const Answer& answer : record.answers)
-        past.answers[answer.name] = answer.value;
-    for (const Phase& phase : phases)
-        for (const Question& question : phase.questions)
-            if (question.images)
-                past.answers[question.name] = trial.role(past.answers[question.name]);
-    return past;
-}
 
 int hastyPressesOf(const TrialRecord& record) {
     int sum = 0;
@@ -101,12 +43,13 @@ bool playAll(const Context& context, const BrokenSession& before, Observer& obse
             history.push_back({*planned, {}, false});
             continue;
         }
-        const Upcoming trial{index++, count, *planned,
-                             placed(protocol.trial.order, planned->roles)};
+        const Upcoming trial = upcoming(protocol, *planned, index++, count);
         TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz);
         observer.prepare(trial);
-        if (!play(machine, observer, recorder, trial.index,
-                  context.study.condition(trial.planned.condition).condition))
+        if (!play(machine, observer, [&] {
+                recorder.trialStarted(trial.index,
+                                      context.study.condition(trial.planned.condition).condition);
+            }))
             return false;
         recorder.finished(trial.index, linesOf(context, trial, machine.record()));
         history.push_back(remember(phases, trial, machine.record()));
@@ -116,6 +59,14 @@ bool playAll(const Context& context, const BrokenSession& before, Observer& obse
             intervals.insert(intervals.end(), phase.intervals.begin(), phase.intervals.end());
     }
     return true;
+}
+
+// Of what stopped the session, which may be that nothing can be written any more.
+void noteStop(Recorder& recorder, const std::string& why) {
+    try {
+        recorder.end("stopped: " + why);
+    } catch (const std::exception&) {
+    }
 }
 
 // What goes on after what was before; nothing was, for a new session.
@@ -154,6 +105,9 @@ bool run(const Study& study, const DataFolder& folder, const BrokenSession& befo
     } catch (const EndedBySignal& signal) {
         ended = signal;
         reason = "ended by " + signal.name();
+    } catch (const std::exception& error) {
+        noteStop(recorder, error.what());
+        throw;
     }
     recorder.end(reason);
     addOutcome(sidecar, reason, intervals, refresh.hz);

@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace obscura::gl {
@@ -114,15 +115,18 @@ Window::Window(const WindowOptions& options) : interrupt_(options.interrupt) {
     glDisable(GL_FRAMEBUFFER_SRGB);
     glDisable(GL_DITHER);
     glfwFocusWindow(window_.get());
-    poll(); // the system may still resize it
+    glfwPollEvents(); // the system may still resize it
+    take();
     glfwGetFramebufferSize(window_.get(), &width_, &height_);
     glViewport(0, 0, width_, height_);
+    lost_.clear();
 }
 
-Window::~Window() = default;
+Window::~Window() { glfwSetMonitorCallback(nullptr); }
 
 void Window::open(const WindowOptions& options) {
     GLFWmonitor* handle = chosenMonitor(options.monitor);
+    screen_ = handle;
     monitor_ = describe(handle);
     hintContext();
     hintWindow(*glfwGetVideoMode(handle));
@@ -176,10 +180,29 @@ void Window::listen() {
     glfwSetWindowRefreshCallback(window_.get(), [](GLFWwindow* window) {
         self(window).inputs_.push_back(self(window).stamped(Input::Kind::exposed));
     });
+    glfwSetFramebufferSizeCallback(window_.get(), [](GLFWwindow* window, int width, int height) {
+        self(window).lost_ = fmt::format("the screen's size changed from {}x{} to {}x{} pixels",
+                                         self(window).width_, self(window).height_, width, height);
+    });
+    // Of all monitors, without a window to tell; there is one window at a time.
+    static GLFWwindow* listening = nullptr;
+    listening = window_.get();
+    glfwSetMonitorCallback([](GLFWmonitor* monitor, int event) {
+        Window& window = self(listening);
+        if (event == GLFW_DISCONNECTED && monitor == window.screen_)
+            window.lost_ = "the monitor " + window.monitor_.name + " was disconnected";
+    });
     glfwSetWindowCloseCallback(window_.get(), [](GLFWwindow* window) {
         glfwSetWindowShouldClose(window, GLFW_FALSE);
         self(window).inputs_.push_back(self(window).stamped(Input::Kind::close));
     });
+}
+
+void Window::checkScreen() {
+    if (!lost_.empty())
+        throw Error(lost_);
+    if (sleep_.slept())
+        inputs_.push_back(stamped(Input::Kind::focusLost));
 }
 
 Input Window::stamped(Input::Kind kind) const {
@@ -239,6 +262,7 @@ Onset Window::swap() {
     glfwSwapBuffers(window_.get());
     const Onset onset = awaitOnset();
     interrupt_();
+    checkScreen();
     return onset;
 }
 
@@ -263,13 +287,17 @@ Onset Window::awaitOnset() const {
 const std::vector<Input>& Window::poll() {
     glfwPollEvents();
     interrupt_();
+    checkScreen();
     return take();
 }
 
-const std::vector<Input>& Window::wait() {
-    constexpr double interval = 0.1; // seconds between calls of interrupt_
-    for (interrupt_(); inputs_.empty(); interrupt_())
-        glfwWaitEventsTimeout(interval);
+const std::vector<Input>& Window::wait(double atMost) {
+    constexpr double interval = 0.1, least = 1e-4; // seconds between calls of interrupt_
+    const double end = now() + atMost;
+    for (interrupt_(); inputs_.empty() && now() < end; interrupt_()) {
+        glfwWaitEventsTimeout(std::clamp(end - now(), least, interval));
+        checkScreen();
+    }
     return take();
 }
 

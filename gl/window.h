@@ -3,15 +3,18 @@
 #include "gl/context.h"
 #include "gl/input.h"
 #include "gl/picture.h"
+#include "gl/sleep_watch.h"
 
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+struct GLFWmonitor;
 struct GLFWwindow;
 
 namespace obscura::gl {
@@ -46,7 +49,9 @@ struct Onset {
 
 // A window with an OpenGL 4.5 context for showing pictures pixel by pixel: double-buffered,
 // synchronised to the vertical blank where the driver can, its framebuffer 8 bits and not sRGB.
-// Input is collected with the time at which it arrived.
+// Input is collected with the time at which it arrived. poll(), swap() and wait() throw an Error
+// once its monitor has been disconnected, or its size has changed. After the machine was suspended,
+// the keyboard counts as lost.
 class Window {
   public:
     explicit Window(const WindowOptions& options);
@@ -86,8 +91,8 @@ class Window {
 
     // What has arrived, without waiting or allocating; valid until the next call.
     const std::vector<Input>& poll();
-    // The same, but sleeps until something arrives.
-    const std::vector<Input>& wait();
+    // The same, but sleeps until something arrives, or for so many seconds.
+    const std::vector<Input>& wait(double atMost = std::numeric_limits<double>::infinity());
     void showCursor(bool visible);
     bool focused() const; // whether the keyboard is ours
     void setTitle(const std::string& title);
@@ -107,17 +112,21 @@ class Window {
 
     void open(const WindowOptions& options);
     void listen();
+    void checkScreen();
     Input stamped(Input::Kind kind) const;
     const std::vector<Input>& take();
     Onset awaitOnset() const;
 
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     Library library_;
-    Monitor monitor_;
+    GLFWmonitor* screen_ = nullptr;
+    Monitor monitor_; // the same, described
     std::unique_ptr<GLFWwindow, Destroy> window_;
     int width_ = 0, height_ = 0;
     std::vector<Input> inputs_, taken_;
     void (*interrupt_)();
+    SleepWatch sleep_;
+    std::string lost_; // why nothing can be shown any more; "" for nothing
     Stamp stamp_ = Stamp::finish;
 };
 

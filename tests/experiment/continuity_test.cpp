@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "experiment/continuity.h"
 #include "experiment/session.h"
+#include "experiment/simulated.h"
 #include "tests/experiment/tiny_study.h"
 
 #include <gmock/gmock.h>

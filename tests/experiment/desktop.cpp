@@ -6,6 +6,7 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
+#include <X11/extensions/Xrandr.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
@@ -118,6 +119,17 @@ void Desktop::scaleTo(int percent) {
     XChangeProperty(display, DefaultRootWindow(display), XA_RESOURCE_MANAGER, XA_STRING, 8,
                     PropModeReplace, reinterpret_cast<const unsigned char*>(resources.data()),
                     static_cast<int>(resources.size()));
+    XSync(display, False);
+}
+
+void Desktop::unplug() {
+    Display* display = connection_->display;
+    const Window root = DefaultRootWindow(display);
+    XRRScreenResources* screen = XRRGetScreenResourcesCurrent(display, root);
+    for (int i = 0; i < screen->ncrtc; ++i)
+        XRRSetCrtcConfig(display, screen, screen->crtcs[i], CurrentTime, 0, 0, None, RR_Rotate_0,
+                         nullptr, 0);
+    XRRFreeScreenResources(screen);
     XSync(display, False);
 }
 

@@ -34,6 +34,9 @@ class Desktop {
     // From now on there is one who composes windows, as far as windows can tell.
     void startCompositor();
 
+    // Pulls the plug of its only monitor.
+    void unplug();
+
     Image8 look() const; // the whole screen, RGB
     // Of the presenter's window; "" when there is none. It changes once the presenter knows that
     // what it names is on the screen, and keys count.

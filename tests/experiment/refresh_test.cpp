@@ -1,4 +1,5 @@
 #include "experiment/refresh.h"
+#include "gl/sleep_watch.h"
 
 #include <gtest/gtest.h>
 
@@ -76,6 +77,30 @@ TEST(Refresh, SummaryCountsIntervals) {
     EXPECT_EQ(summary.histogram.at(20), 1);
     EXPECT_EQ(summary.histogram.at(30), 1);
     EXPECT_EQ(summarise({}, 60).count, 0);
+}
+
+double bootClock = 100, steadyClock = 100, pause = 0; // `pause`: while both are read, once
+
+// A machine that was suspended for a minute, and one that was busy for a second.
+TEST(SleepWatch, OnlyAClockThatStoodStillIsASleep) {
+    gl::SleepWatch watch([] { return bootClock; },
+                         [] {
+                             steadyClock += pause;
+                             bootClock += pause;
+                             pause = 0;
+                             return steadyClock;
+                         });
+    EXPECT_FALSE(watch.slept());
+    bootClock += 60;
+    EXPECT_TRUE(watch.slept());
+    EXPECT_FALSE(watch.slept());
+    for (double* clock : {&bootClock, &steadyClock})
+        *clock += 3600;
+    EXPECT_FALSE(watch.slept());
+    pause = 1;
+    EXPECT_FALSE(watch.slept());
+    EXPECT_FALSE(watch.slept());
+    EXPECT_FALSE(gl::SleepWatch().slept()) << "this machine's own clocks";
 }
 
 } // namespace

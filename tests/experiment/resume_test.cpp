@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "experiment/session.h"
+#include "experiment/simulated.h"
 #include "protocols/reader/responses.h"
 #include "tests/experiment/shipped_studies.h"
 #include "tests/experiment/tiny_study.h"

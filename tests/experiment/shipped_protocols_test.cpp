@@ -1,4 +1,5 @@
 #include "experiment/session.h"
+#include "experiment/simulated.h"
 #include "tests/experiment/shipped_studies.h"
 #include "tests/experiment/tiny_study.h"
 

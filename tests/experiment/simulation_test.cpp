@@ -2,6 +2,7 @@
 #include "base/files.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
+#include "experiment/simulated.h"
 #include "protocols/reader/responses.h"
 #include "tests/experiment/psych_ds.h"
 #include "tests/experiment/tiny_study.h"

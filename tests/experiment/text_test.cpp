@@ -145,6 +145,12 @@ TEST(Text, LabelOfOneWordThatNothingHoldsIsBroken) {
 TEST(Text, ImagesAreNumberedAsTheAnswersNameThem) {
     Phase phase;
     phase.images = {"1", "reference", "2"};
+    phase.questions.resize(1);
+    EXPECT_THAT(roomFor(phase, 400, 225).names, testing::IsEmpty()) << "of a scale with its own 1";
+    phase.questions.front().images = true;
+    EXPECT_THAT(roomFor(phase, 400, 225).names, testing::ElementsAre("1", "", "2"));
+    phase.questions.front() = {};
+    phase.questions.front().kind = Question::Kind::rank;
     EXPECT_THAT(roomFor(phase, 400, 225).names, testing::ElementsAre("1", "", "2"));
     phase.images = {"1"};
     EXPECT_THAT(roomFor(phase, 400, 225).names, testing::IsEmpty());

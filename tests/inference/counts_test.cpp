@@ -1,4 +1,4 @@
-#include "analysis/frequencies.h"
+#include "inference/counts.h"
 #include "base/csv.h"
 #include "base/files.h"
 

@@ -1,4 +1,4 @@
-#include "analysis/frequencies.h"
+#include "inference/counts.h"
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>

@@ -1,0 +1,155 @@
+#include "experiment/simulated.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+constexpr double refreshHz = 60;
+constexpr double quickest = 0.15; // seconds; nobody sees and reacts faster
+constexpr double keyDown = 0.08;  // seconds for which a key is held
+
+gl::Key digit(int number) {
+    return static_cast<gl::Key>(static_cast<int>(gl::Key::zero) + number % 10);
+}
+
+} // namespace
+
+SimulatedParticipant::SimulatedParticipant(const Protocol& protocol, std::uint64_t seed,
+                                           const std::string& name)
+    : protocol_(protocol), phases_(phasesOf(protocol.trial)), seed_(seed),
+      random_(seed, "observer/" + name), pages_(seed, "pages/" + name) {}
+
+void SimulatedParticipant::describe(nlohmann::ordered_json& sidecar) const {
+    const Simulation& model = protocol_.simulation;
+    const auto spell = [](const ExGaussian& time) {
+        return nlohmann::ordered_json{
+            {"mean_s", time.mean}, {"deviation_s", time.deviation}, {"tail_s", time.tail}};
+    };
+    sidecar["model"] = {{"seed", seed_},
+                        {"position_bias", model.positionBias},
+                        {"view", spell(model.view)},
+                        {"decision", spell(model.decision)}};
+}
+
+void SimulatedParticipant::prepare(const Upcoming& trial) {
+    const Condition& condition =
+        protocol_.conditions.at(static_cast<std::size_t>(trial.planned.condition));
+    const double preferSecond =
+        trial.order.front() == "b" ? 1 - condition.simulated.chooseB : condition.simulated.chooseB;
+    chooseSecond_ = std::clamp(preferSecond + protocol_.simulation.positionBias, 0.0, 1.0);
+    deed_.reset();
+}
+
+void SimulatedParticipant::sees(const TrialMachine& trial, double time) {
+    if (std::exchange(screen_, trial.screen()) != trial.screen())
+        deed_.reset();
+    if (deed_ || screen_ == leaveScreen)
+        return;
+    const Phase& phase = phases_[static_cast<std::size_t>(screen_)];
+    if (!trial.form() && phase.locked())
+        return;
+    deed_ = decide(trial, phase);
+    deed_->time += time;
+}
+
+std::optional<double> SimulatedParticipant::next() const {
+    return deed_ ? std::optional(deed_->time) : std::nullopt;
+}
+
+std::optional<Deed> SimulatedParticipant::take(double time) {
+    return deed_ && deed_->time <= time ? std::exchange(deed_, std::nullopt) : std::nullopt;
+}
+
+double SimulatedParticipant::reading() {
+    const ExGaussian& time = protocol_.simulation.decision;
+    return std::max(quickest, time.mean + time.deviation * pages_.normal());
+}
+
+Deed SimulatedParticipant::decide(const TrialMachine& trial, const Phase& phase) {
+    if (const Form* form = trial.form())
+        return answer(*form);
+    const double time =
+        draw(phase.images.empty() ? protocol_.simulation.decision : protocol_.simulation.view);
+    return {phase.atLeast > 0 || !phase.images.empty() ? std::max(phase.atLeast + quickest, time)
+                                                       : time,
+            gl::Key::space,
+            {}};
+}
+
+// Which image of a pair looks better is the model's; all other questions are answered at random: a
+// number in the middle of the range, or a letter, where they are typed.
+Deed SimulatedParticipant::answer(const Form& form) {
+    Deed deed{draw(protocol_.simulation.decision), gl::Key::enter, {}}; // to the next, or the end
+    if (form.answered(static_cast<std::size_t>(form.focus())))
+        return deed;
+    const Question& question = form.questions()[static_cast<std::size_t>(form.focus())];
+    switch (question.kind) {
+    case Question::Kind::choice:
+        if (question.images && question.options.size() == 2 && question.unsure.empty()) {
+            deed.key = random_.uniform() < chooseSecond_ ? gl::Key::two : gl::Key::one;
+            break;
+        }
+        [[fallthrough]];
+    case Question::Kind::scale:
+    case Question::Kind::rank:
+        deed.key = digit(1 + static_cast<int>(random_.below(
+                                 static_cast<std::uint32_t>(form.optionsOf(question)))));
+        break;
+    case Question::Kind::slider:
+        deed.key = digit(static_cast<int>(random_.below(10)));
+        break;
+    case Question::Kind::number:
+        deed.typed = fmt::format("{}", (question.least + question.most) / 2);
+        break;
+    case Question::Kind::text:
+        deed.typed = "x";
+        break;
+    }
+    return deed;
+}
+
+double SimulatedParticipant::draw(const ExGaussian& time) {
+    const double gaussian = time.mean + time.deviation * random_.normal();
+    return std::max(quickest, gaussian + time.tail * random_.exponential());
+}
+
+Refresh SimulatedObserver::refresh() const {
+    return {refreshHz, "none", "simulated: a clock without a display"};
+}
+
+double SimulatedObserver::show(const TrialMachine& trial) {
+    trial_ = &trial;
+    clock_ = (std::floor(clock_ * refreshHz + 1e-6) + 1) / refreshHz;
+    participant_.sees(trial, clock_);
+    return clock_;
+}
+
+std::vector<Event> SimulatedObserver::events(bool wait) {
+    if (!trial_)
+        return {};
+    if (wait) {
+        participant_.sees(*trial_, clock_); // a key that changed nothing
+        clock_ = std::max(clock_, participant_.next().value_or(clock_));
+    }
+    const std::optional<Deed> deed = participant_.take(clock_);
+    if (!deed)
+        return {};
+    if (deed->typed.empty())
+        return {{Event::Kind::press, deed->time, deed->key},
+                {Event::Kind::release, deed->time + keyDown, deed->key}};
+    std::vector<Event> events;
+    for (const char letter : deed->typed) {
+        events.push_back({Event::Kind::text, deed->time});
+        events.back().symbol = static_cast<unsigned char>(letter);
+    }
+    return events;
+}
+
+} // namespace obscura

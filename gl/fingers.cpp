@@ -1,0 +1,78 @@
+#include "gl/fingers.h"
+
+#include "base/error.h"
+
+#include <X11/XKBlib.h>
+#include <X11/Xlib.h>
+#include <X11/extensions/XTest.h>
+#include <X11/keysym.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+
+namespace obscura::gl {
+
+namespace {
+
+unsigned long symbolOf(Key key) {
+    switch (key) {
+    case Key::enter:
+        return XK_Return;
+    case Key::escape:
+        return XK_Escape;
+    case Key::tab:
+        return XK_Tab;
+    case Key::backspace:
+        return XK_BackSpace;
+    case Key::right:
+        return XK_Right;
+    case Key::left:
+        return XK_Left;
+    case Key::down:
+        return XK_Down;
+    case Key::up:
+        return XK_Up;
+    default:
+        return static_cast<unsigned long>(key); // ASCII, as X has it
+    }
+}
+
+} // namespace
+
+void Fingers::Close::operator()(_XDisplay* display) const { XCloseDisplay(display); }
+
+Fingers::Fingers() : display_(XOpenDisplay(nullptr)) {
+    int ignored = 0;
+    if (!display_ || !XTestQueryExtension(display_.get(), &ignored, &ignored, &ignored, &ignored))
+        throw Error(
+            "expected an X server with the extension XTEST, which presses keys, found none; "
+            "start it as Xvfb :7 -screen 0 1280x800x24, and set DISPLAY=:7");
+}
+
+void Fingers::tap(Key key) { tapSymbol(symbolOf(key)); }
+
+void Fingers::type(char symbol) { tapSymbol(static_cast<unsigned char>(symbol)); }
+
+// The server stamps in milliseconds, and GLFW takes a second press of the same stamp for an echo.
+void Fingers::tapSymbol(unsigned long symbol) {
+    Display* display = display_.get();
+    const KeyCode code = XKeysymToKeycode(display, symbol);
+    if (code == 0)
+        throw Error(fmt::format("the keyboard has no key for the symbol {:#x}; choose a layout "
+                                "that has: setxkbmap us",
+                                symbol));
+    const bool shifted = XkbKeycodeToKeysym(display, code, 0, 0) != symbol &&
+                         XkbKeycodeToKeysym(display, code, 0, 1) == symbol;
+    const KeyCode shift = XKeysymToKeycode(display, XK_Shift_L);
+    if (shifted)
+        XTestFakeKeyEvent(display, shift, True, CurrentTime);
+    XTestFakeKeyEvent(display, code, True, CurrentTime);
+    XTestFakeKeyEvent(display, code, False, CurrentTime);
+    if (shifted)
+        XTestFakeKeyEvent(display, shift, False, CurrentTime);
+    XSync(display, False);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+}
+
+} // namespace obscura::gl
