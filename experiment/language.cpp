@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace obscura {
@@ -96,6 +97,18 @@ class Choice {
     bool focused_ = true;
 };
 
+// As the sidecar says; "" where it does not, or says one that the study no longer has.
+std::string languageOf(const std::filesystem::path& sidecar, const Protocol& protocol) {
+    if (!std::filesystem::exists(sidecar))
+        return "";
+    const auto said = nlohmann::json::parse(readFile(sidecar), nullptr, false);
+    const auto language = said.is_object() ? said.find("language") : said.end();
+    for (const Texts* texts : protocol.languages())
+        if (language != said.end() && *language == texts->language)
+            return texts->language;
+    return "";
+}
+
 } // namespace
 
 std::string languageNamed(const Protocol& protocol, const std::string& tag) {
@@ -111,23 +124,18 @@ std::string languageNamed(const Protocol& protocol, const std::string& tag) {
                                           : fmt::format("it has {}", fmt::join(known, ", "))));
 }
 
-std::string languageOf(const std::filesystem::path& sidecar, const Protocol& protocol) {
-    if (!std::filesystem::exists(sidecar))
-        return "";
-    const auto said = nlohmann::json::parse(readFile(sidecar), nullptr, false);
-    const auto language = said.is_object() ? said.find("language") : said.end();
-    for (const Texts* texts : protocol.languages())
-        if (language != said.end() && *language == texts->language)
-            return texts->language;
-    return "";
-}
-
-std::optional<std::string> askLanguage(Display& display, const Protocol& protocol,
-                                       const std::string& warning) {
+bool settleLanguage(Study& study, Display& display, const std::string& warning,
+                    const std::filesystem::path& sidecar) {
+    const Protocol& protocol = study.protocol;
+    if (!study.language.empty() || protocol.translations.empty())
+        return true;
+    study.language = languageOf(sidecar, protocol);
+    if (!study.language.empty())
+        return true;
     const std::optional<std::size_t> chosen = Choice(display, protocol, warning).await();
-    if (!chosen)
-        return std::nullopt;
-    return protocol.languages()[*chosen]->language;
+    if (chosen)
+        study.language = protocol.languages()[*chosen]->language;
+    return chosen.has_value();
 }
 
 } // namespace obscura

@@ -1,10 +1,9 @@
 #pragma once
 
 #include "experiment/display.h"
-#include "protocols/reader/protocol.h"
+#include "experiment/study.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 namespace obscura {
@@ -13,13 +12,11 @@ namespace obscura {
 // it has none.
 std::string languageNamed(const Protocol& protocol, const std::string& tag);
 
-// In which language a session was, as its sidecar says; "" where it does not, or in none that the
-// study still has.
-std::string languageOf(const std::filesystem::path& sidecar, const Protocol& protocol);
-
-// Lets the participant choose among the study's languages, by number, arrows and Enter, or mouse;
-// the first is offered. Its tag; nothing when Escape was pressed. `warning` stands above the page.
-std::optional<std::string> askLanguage(Display& display, const Protocol& protocol,
-                                       const std::string& warning);
+// Settles the study's language, where that has not been done and there are several: that of the
+// session with this sidecar ("" or none there: no such session); or else the participant chooses,
+// by number, arrows and Enter, or mouse. `warning` stands above the page. False when Escape was
+// pressed.
+bool settleLanguage(Study& study, Display& display, const std::string& warning,
+                    const std::filesystem::path& sidecar);
 
 } // namespace obscura

@@ -318,16 +318,10 @@ int present(const Arguments& arguments, Study& study) {
 
     Display display(displayOptions(arguments, study), curtain(study));
     std::string Texts::*const above = warning(arguments, display);
-    if (study.language.empty() && arguments.resume && !arguments.participant.empty())
-        study.language =
-            languageOf(folder.sidecar(sessionOf(arguments.participant)), study.protocol);
-    if (study.language.empty() && !study.protocol.translations.empty()) {
-        const auto language =
-            askLanguage(display, study.protocol, above ? study.protocol.texts.*above : "");
-        if (!language)
-            return 0;
-        study.language = *language;
-    }
+    const bool knows = arguments.resume && !arguments.participant.empty();
+    if (!settleLanguage(study, display, above ? study.protocol.texts.*above : "",
+                        knows ? folder.sidecar(sessionOf(arguments.participant)) : ""))
+        return 0;
     Presenter presenter(display, study, above ? study.texts().*above : "");
     const std::optional<std::string> id = arguments.participant.empty()
                                               ? presenter.askId([&](const std::string& typed) {
