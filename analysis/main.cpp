@@ -1,5 +1,7 @@
-// obscura-analysis: the answers of a study, or published counts, become a table, a CSV and a page.
+// obscura-analysis: the answers of a study, or published counts, become a table, a CSV and a page;
+// its command export writes a study's data in the form of a standard.
 
+#include "analysis/export/command.h"
 #include "analysis/findings.h"
 #include "analysis/report.h"
 #include "analysis/table.h"
@@ -105,7 +107,13 @@ int analyse(int argc, char** argv) {
     Options options;
     declare(app, options);
     declareRules(app, options.rules);
+    ExportOptions exported;
+    const CLI::App* exporting = declareExport(app, exported);
     CLI11_PARSE(app, argc, argv);
+    if (exporting->parsed()) {
+        exportStudy(exported);
+        return 0;
+    }
     if (options.data.empty() && options.counts.empty())
         throw Error("expected a study's folder, CSV files, or --counts FILE; see --help");
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "inference/result.h"
+
 #include <cstdint>
 #include <optional>
 
@@ -12,10 +14,6 @@ namespace obscura {
 struct Votes {
     std::int64_t a = 0, b = 0; // each >= 0
     std::int64_t total() const { return a + b; }
-};
-
-struct Interval {
-    double low = 0, high = 1;
 };
 
 // The functions below need at least one vote; frequencies() is the one to call for any counts.
