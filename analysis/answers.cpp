@@ -94,7 +94,7 @@ void removeRehearsals(Answers& answers) {
 
 // Rows may differ in their texts, but not in their design. Rows of a version that kept no design
 // count as of the same one if they come from the same protocol file.
-bool sameDesign(const AnswerRow& x, const AnswerRow& y) {
+bool sameDesign(const Vote& x, const Vote& y) {
     const bool known = x.designSha256 != Symbol() && y.designSha256 != Symbol();
     return known ? x.designSha256 == y.designSha256 : x.protocolSha256 == y.protocolSha256;
 }
@@ -163,27 +163,25 @@ void requireOneSpelling(const std::vector<Answer>& answers, std::string_view col
 }
 
 void requireOneSpelling(const std::vector<Answer>& answers) {
-    requireOneSpelling<&AnswerRow::participantId>(answers, "participant_id");
-    requireOneSpelling<&AnswerRow::conditionId>(answers, "condition_id");
-    requireOneSpelling<&AnswerRow::level>(answers, "level");
-    requireOneSpelling<&AnswerRow::scene>(answers, "scene");
+    requireOneSpelling<&Vote::participantId>(answers, "participant_id");
+    requireOneSpelling<&Vote::conditionId>(answers, "condition_id");
+    requireOneSpelling<&Vote::level>(answers, "level");
+    requireOneSpelling<&Vote::scene>(answers, "scene");
 }
 
 // What two rows must not share.
 using Key = std::array<std::uint64_t, 3>;
 
-Key rowOf(const AnswerRow& row) {
-    return {row.studyId.number(), row.rowIdHash[0], row.rowIdHash[1]};
-}
+Key rowOf(const Vote& row) { return {row.studyId.number(), row.rowIdHash[0], row.rowIdHash[1]}; }
 
-Key trialOf(const AnswerRow& row) {
+Key trialOf(const Vote& row) {
     const auto both = [](std::uint64_t high, std::uint64_t low) { return high << 32 | low; };
     return {both(row.studyId.number(), row.participantId.number()),
             both(row.sessionId.number(), row.trialKind.number()),
             both(row.conditionId.number(), static_cast<std::uint32_t>(row.repeatIndex))};
 }
 
-std::string inWords(const AnswerRow& row) {
+std::string inWords(const Vote& row) {
     return fmt::format("{} participant {} session {} {} condition {} repeat {}", row.studyId,
                        row.participantId, row.sessionId, row.trialKind, row.conditionId,
                        row.repeatIndex);
@@ -191,7 +189,7 @@ std::string inWords(const AnswerRow& row) {
 
 // Leaves out each row whose key an earlier row has, or refuses it.
 int removeRepeated(std::vector<Answer>& answers, std::string_view column, bool allowed,
-                   Key (*key)(const AnswerRow&)) {
+                   Key (*key)(const Vote&)) {
     std::vector<std::pair<Key, std::uint32_t>> keys;
     keys.reserve(answers.size());
     for (const Answer& answer : answers)
@@ -278,8 +276,8 @@ FileRows readFileRows(const fs::path& path, bool lenient) {
     const Symbol name(path.string());
     try {
         file.read = eachResponse(path, lenient, [&](const Response& row, int line) {
-            const AnswerRow above = file.rows.empty() ? AnswerRow() : file.rows.back().row;
-            file.rows.push_back({AnswerRow(row, above), name, line});
+            const Vote above = file.rows.empty() ? Vote() : file.rows.back().row;
+            file.rows.push_back({Vote(row, above), name, line});
         });
     } catch (...) {
         file.error = std::current_exception();
@@ -309,7 +307,7 @@ Answers readAll(const std::vector<fs::path>& files, bool lenient) {
 
 } // namespace
 
-AnswerRow::AnswerRow(const Response& row, const AnswerRow& above) {
+Vote::Vote(const Response& row, const Vote& above) {
     aFirst = row.firstIs == "a";
     studyId = symbolOf(row.studyId, above.studyId);
     participantId = symbolOf(row.participantId, above.participantId);

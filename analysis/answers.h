@@ -17,11 +17,11 @@ namespace obscura {
 
 // What is kept of a row: what statistics ask for, in a quarter of its size. Fields are named as in
 // Response.
-struct AnswerRow {
-    AnswerRow() = default;
+struct Vote {
+    Vote() = default;
     // Texts that are those of the row above are found at once.
-    AnswerRow(const Response& row, const AnswerRow& above);
-    explicit AnswerRow(const Response& row) : AnswerRow(row, AnswerRow()) {}
+    Vote(const Response& row, const Vote& above);
+    explicit Vote(const Response& row) : Vote(row, Vote()) {}
 
     Symbol studyId, participantId, sessionId, conditionId, level, scene, hypothesis;
     Symbol techniqueA, techniqueB, sha256A, sha256B, trialKind, timestampSource;
@@ -38,7 +38,7 @@ struct AnswerRow {
 };
 
 struct Answer {
-    AnswerRow row;
+    Vote row;
     Symbol file;
     int line = 0;
 

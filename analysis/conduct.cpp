@@ -45,7 +45,7 @@ std::map<Key, int> countBy(const std::vector<Answer>& answers, const KeyOf& keyO
 void countPeople(const std::vector<Answer>& answers, Conduct& conduct) {
     std::uint64_t person = 0;
     for (const auto& [key, given] :
-         countBy<std::pair<std::uint64_t, std::uint32_t>>(answers, [](const AnswerRow& row) {
+         countBy<std::pair<std::uint64_t, std::uint32_t>>(answers, [](const Vote& row) {
              return std::pair(both(row.studyId, row.participantId), row.conditionId.number());
          })) {
         conduct.participants += conduct.participants == 0 || key.first != person;
@@ -56,13 +56,13 @@ void countPeople(const std::vector<Answer>& answers, Conduct& conduct) {
 
 void countSessions(const std::vector<Answer>& answers, Conduct& conduct) {
     struct Session {
-        const AnswerRow* row = nullptr;
+        const Vote* row = nullptr;
         int trials = 0;
     };
     std::map<std::pair<std::uint64_t, std::uint32_t>, Session> sessions;
     int longest = 0;
     for (const Answer& answer : answers) {
-        const AnswerRow& row = answer.row;
+        const Vote& row = answer.row;
         Session& session = sessions[{both(row.studyId, row.participantId), row.sessionId.number()}];
         session.row = &row;
         longest = std::max(longest, ++session.trials);
@@ -78,7 +78,7 @@ void countSessions(const std::vector<Answer>& answers, Conduct& conduct) {
 
 using ShownByCondition = std::unordered_map<std::uint32_t, Conduct::Shown>;
 
-void countTrial(const AnswerRow& row, ShownByCondition& shownBy,
+void countTrial(const Vote& row, ShownByCondition& shownBy,
                 std::unordered_map<std::uint32_t, int>& sources, Conduct& conduct) {
     conduct.simulated += row.simulated;
     conduct.interrupted += row.interrupted;
@@ -152,12 +152,12 @@ Conduct conductOf(const Answers& answers) {
     countSessions(counted, conduct);
     countTrials(counted, conduct);
     noteProvenance(counted, conduct);
-    conduct.maskMs = spreadOf<&AnswerRow::maskMs>(counted);
-    conduct.view1Ms = spreadOf<&AnswerRow::view1Ms>(counted);
-    conduct.view2Ms = spreadOf<&AnswerRow::view2Ms>(counted);
-    conduct.decisionMs = spreadOf<&AnswerRow::decisionRtMs>(counted);
-    std::tie(conduct.slowestHz, conduct.fastestHz) = rangeOf<&AnswerRow::refreshHz>(counted);
-    const auto [first, last] = rangeOf<&AnswerRow::wallTime>(counted);
+    conduct.maskMs = spreadOf<&Vote::maskMs>(counted);
+    conduct.view1Ms = spreadOf<&Vote::view1Ms>(counted);
+    conduct.view2Ms = spreadOf<&Vote::view2Ms>(counted);
+    conduct.decisionMs = spreadOf<&Vote::decisionRtMs>(counted);
+    std::tie(conduct.slowestHz, conduct.fastestHz) = rangeOf<&Vote::refreshHz>(counted);
+    const auto [first, last] = rangeOf<&Vote::wallTime>(counted);
     conduct.firstTime = utcOf(first);
     conduct.lastTime = utcOf(last);
     return conduct;

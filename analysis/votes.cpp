@@ -32,7 +32,7 @@ Tally emptyTally(const ConditionRecord& pair) {
             pair.image("a").name, pair.image("b").name, {}};
 }
 
-Tally emptyTally(const AnswerRow& row) {
+Tally emptyTally(const Vote& row) {
     return {row.conditionId, row.level,      row.scene, row.hypothesis,
             row.techniqueA,  row.techniqueB, {}};
 }
@@ -79,7 +79,7 @@ Tally& tallyOf(const Answer& answer, std::vector<Tally>& tallies) {
 
 // What participants saw must be what the report shows.
 void checkImages(const Answer& answer, const Manifest& stimuli) {
-    const AnswerRow& row = answer.row;
+    const Vote& row = answer.row;
     const auto pair = std::find_if(
         stimuli.conditions.begin(), stimuli.conditions.end(),
         [&](const ConditionRecord& p) { return p.condition == row.conditionId.text(); });
@@ -95,7 +95,7 @@ void checkImages(const Answer& answer, const Manifest& stimuli) {
 
 // All by which rows of one condition must be alike, and how to find the tally of the last such one.
 using Alike = std::array<Symbol, 8>;
-Alike alikeOf(const AnswerRow& row) {
+Alike alikeOf(const Vote& row) {
     return {row.conditionId, row.level,      row.scene,   row.hypothesis,
             row.techniqueA,  row.techniqueB, row.sha256A, row.sha256B};
 }

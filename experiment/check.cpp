@@ -61,7 +61,8 @@ int playSlot(const Protocol& protocol, int slot) {
         if (trials > trial.count)
             throw Error(fmt::format("slot {} has more than the {} trials that it should have", slot,
                                     trial.count));
-        TrialMachine machine(phases, static_cast<int>(trial.order.size()), observer.refresh().hz);
+        TrialMachine machine(phases, static_cast<int>(trial.order.size()), observer.refresh().hz,
+                             protocol.keys);
         observer.prepare(trial);
         play(machine, observer, [] {});
         history.push_back(remember(phases, trial, machine.record()));

@@ -48,6 +48,7 @@ class Display {
     std::string inWords() const;
     void describe(nlohmann::ordered_json& sidecar) const;
     gl::Window& window() { return window_; }
+    const gl::Monitor& monitor() const { return window_.monitor(); }
 
     // Draws without showing, so that the first showing is not slower than others. An Error when
     // the picture is larger than the screen: nothing is ever scaled.

@@ -4,6 +4,8 @@
 #include "base/progress.h"
 #include "base/version.h"
 #include "experiment/broken_session.h"
+#include "experiment/calibrate.h"
+#include "experiment/card.h"
 #include "experiment/check.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
@@ -13,9 +15,11 @@
 #include "experiment/presenter.h"
 #include "experiment/preview.h"
 #include "experiment/recorder.h"
+#include "experiment/screen_file.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
 #include "experiment/simulated.h"
+#include "experiment/start_facts.h"
 #include "experiment/timing_command.h"
 #include "experiment/visual.h"
 
@@ -41,6 +45,7 @@ struct Arguments {
     std::string participant, language;
     int session = 1;
     int monitor = 1;
+    std::string screenMm;
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
     bool simulate = false, visual = false, resume = false;
@@ -66,6 +71,18 @@ CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
                     "Rehearse in a window, of 1280x800 unless a size is given")
         ->type_name("WxH")
         ->expected(0, 1);
+}
+
+void declareTools(CLI::App& app, Arguments& arguments) {
+    for (const auto& [name, description] :
+         {std::pair("card", "Measure the size of a screen's pixels with a card held to it"),
+          std::pair("calibrate", "Measure the curve of a screen by eye and with a photometer")}) {
+        CLI::App* tool = app.add_subcommand(name, description);
+        tool->add_option("--data", arguments.data, "The data folder, which keeps it")
+            ->type_name("DIR")
+            ->capture_default_str();
+        declareScreen(*tool, arguments);
+    }
 }
 
 void declareTiming(CLI::App& app, Arguments& arguments) {
@@ -112,6 +129,10 @@ void declare(CLI::App& app, Arguments& arguments) {
                      "twice. Without --participant, the screen asks");
     CLI::Option* windowed = declareScreen(app, arguments);
     app.add_flag("--list-monitors", arguments.listMonitors, "Name the monitors, and end");
+    app.add_option("--screen-mm", arguments.screenMm,
+                   "Width and height of what the screen shows, in millimetres; otherwise what "
+                   "obscura-experiment card has measured")
+        ->type_name("WxH");
     CLI::Option* rehearse =
         app.add_flag("--rehearse", arguments.rehearse,
                      "Try the study out: takes no slot, and its rows go to rehearsals/ in the data "
@@ -154,6 +175,7 @@ void declare(CLI::App& app, Arguments& arguments) {
 
     declareLedger(app, arguments.ledger);
     declareTiming(app, arguments);
+    declareTools(app, arguments);
     app.footer(
         "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
         "end.\n"
@@ -298,39 +320,56 @@ void checkParticipant(const Arguments& arguments, const Study& study, const Data
     throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
 }
 
-int present(const Arguments& arguments, Study& study) {
-    const DataFolder folder(arguments.data, study.protocol, arguments.rehearse);
-    const auto sessionOf = [&](const std::string& id) {
-        SessionId session{id, arguments.session, false, arguments.rehearse};
-        while (session.rehearsal && fs::exists(folder.journal(session)))
-            ++session.number; // people rehearse more than once
-        return session;
-    };
-    if (arguments.rehearse) {
-        fmt::print(stderr,
-                   "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
-    } else {
-        checkFolder(folder, study);
-        mendOrphans(folder);
-    }
-    if (!arguments.participant.empty())
-        checkParticipant(arguments, study, folder, sessionOf(arguments.participant));
+SessionId sessionOf(const Arguments& arguments, const DataFolder& folder, const std::string& id) {
+    SessionId session{id, arguments.session, false, arguments.rehearse};
+    while (session.rehearsal && fs::exists(folder.journal(session)))
+        ++session.number; // people rehearse more than once
+    return session;
+}
 
+// Says how the images are seen. An Error where that is not as the study wants it.
+Viewing viewingOn(const Arguments& arguments, const Study& study, const gl::Monitor& monitor) {
+    const Manifest& images = study.manifest;
+    Viewing viewing{study.protocol.screen, {}, images.width, images.height};
+    viewing.size = arguments.screenMm.empty()
+                       ? cardSize(arguments.data, monitor)
+                       : screenSizeOf(arguments.screenMm, monitor.width, monitor.height);
+    if (const std::string words = inWords(viewing); !words.empty())
+        fmt::print(stderr, "obscura-experiment: viewing: {}\n", words);
+    if (const std::string wrong = objectionTo(viewing); !wrong.empty()) {
+        if (!arguments.rehearse)
+            throw Error(wrong + " (images are never scaled)");
+        fmt::print(stderr, "obscura-experiment: no session but a rehearsal: {}\n", wrong);
+    }
+    return viewing;
+}
+
+// Nothing when the experimenter wants another monitor.
+std::optional<int> presentOn(const Arguments& arguments, Study& study, const DataFolder& folder,
+                             int monitors) {
     Display display(displayOptions(arguments, study), curtain(study));
+    const Viewing viewing = viewingOn(arguments, study, display.monitor());
     std::string Texts::*const above = warning(arguments, display);
     const bool knows = arguments.resume && !arguments.participant.empty();
     if (!settleLanguage(study, display, above ? study.protocol.texts.*above : "",
-                        knows ? folder.sidecar(sessionOf(arguments.participant)) : ""))
+                        knows ? folder.sidecar(sessionOf(arguments, folder, arguments.participant))
+                              : ""))
         return 0;
     Presenter presenter(display, study, above ? study.texts().*above : "");
-    const std::optional<std::string> id = arguments.participant.empty()
-                                              ? presenter.askId([&](const std::string& typed) {
-                                                    return judge(study, folder, sessionOf(typed));
-                                                })
-                                              : std::optional(arguments.participant);
-    if (!id)
+    presenter.seenAs(viewing, calibrationOf(arguments.data, display.monitor()));
+    Presenter::Start start{arguments.participant};
+    if (arguments.participant.empty())
+        start =
+            presenter.askId(startFacts(study, folder, arguments.rehearse, display, viewing,
+                                       arguments.monitor, monitors),
+                            [&](const std::string& typed) {
+                                return judge(study, folder, sessionOf(arguments, folder, typed));
+                            });
+    if (start.otherMonitor)
+        return std::nullopt;
+    if (!start.id)
         return 0;
-    const SessionId session = sessionOf(*id);
+    const SessionId session = sessionOf(arguments, folder, *start.id);
     const bool completed =
         objection(folder, session).empty()
             ? runSession(study, folder, session, presenter)
@@ -340,6 +379,24 @@ int present(const Arguments& arguments, Study& study) {
                : arguments.rehearse ? "ended before the last trial"
                                     : "ended before the last trial; its slot has been given back");
     return 0;
+}
+
+int present(Arguments arguments, Study& study) {
+    const DataFolder folder(arguments.data, study.protocol, arguments.rehearse);
+    if (arguments.rehearse) {
+        fmt::print(stderr,
+                   "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
+    } else {
+        checkFolder(folder, study);
+        mendOrphans(folder);
+    }
+    if (!arguments.participant.empty())
+        checkParticipant(arguments, study, folder,
+                         sessionOf(arguments, folder, arguments.participant));
+    for (const int monitors = static_cast<int>(gl::monitors().size());;
+         arguments.monitor = arguments.monitor % monitors + 1)
+        if (const std::optional<int> status = presentOn(arguments, study, folder, monitors))
+            return *status;
 }
 
 int check(const Arguments& arguments) {
@@ -372,8 +429,9 @@ int run(int argc, char** argv) {
     declare(app, arguments);
     CLI11_PARSE(app, argc, argv);
     arguments.simulate = app.count("--simulate") > 0;
-    arguments.windowed =
-        app.count("--windowed") + app.get_subcommand("timing")->count("--windowed") > 0;
+    for (const CLI::App* each : {&app, app.get_subcommand("timing"), app.get_subcommand("card"),
+                                 app.get_subcommand("calibrate")})
+        arguments.windowed |= each->count("--windowed") > 0;
     arguments.rehearse |= arguments.windowed;
 
     if (arguments.listMonitors)
@@ -381,12 +439,19 @@ int run(int argc, char** argv) {
     if (app.got_subcommand("ledger"))
         return editLedger(arguments.ledger);
     heedSignals();
-    const bool times = app.got_subcommand("timing");
-    if (!times && (arguments.protocol.empty() || (arguments.stimuli.empty() && !arguments.check)))
+    const bool times = app.got_subcommand("timing"),
+               measures = app.got_subcommand("card") || app.got_subcommand("calibrate");
+    if (!times && !measures &&
+        (arguments.protocol.empty() || (arguments.stimuli.empty() && !arguments.check)))
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
         if (times)
             return timing(arguments);
+        if (measures)
+            return (app.got_subcommand("card") ? measureCard : calibrate)(windowOptions(arguments),
+                                                                          arguments.data)
+                       ? 0
+                       : 1;
         if (arguments.check)
             return check(arguments);
         Study study = openStudy(arguments.protocol, arguments.stimuli);

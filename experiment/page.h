@@ -33,6 +33,10 @@ struct Page {
         std::optional<Field> field;
         std::optional<Slider> slider;
     };
+    // A line of a small table: what it is, and how it stands.
+    struct Fact {
+        std::string name, value;
+    };
     // Room for images of one size, below each the name that answers have for it, or nothing.
     struct Pictures {
         int count = 0, width = 0, height = 0; // pixels
@@ -45,6 +49,7 @@ struct Page {
     std::string warning;      // a band across the top
     Pictures pictures;
     std::string heading;
+    std::vector<Fact> facts;
     std::string text;
     std::optional<Field> field;
     std::string note; // small, below

@@ -62,8 +62,13 @@ Page loadingPage(const Texts& texts, int loaded, int images) {
     return page;
 }
 
-Page idPage(const Texts& texts, const std::string& typed, const std::string& objection) {
+Page idPage(const Texts& texts, const std::string& typed, const std::string& objection,
+            const StartFacts& start) {
     Page page = blank(texts);
+    page.heading = start.title;
+    page.facts = start.facts;
+    if (start.monitors)
+        page.options = {{texts.enter, ""}, {"Tab", "Next monitor"}};
     page.text = texts.id;
     page.field = Page::Field{typed};
     page.note = objection.empty() ? texts.idNote : objection;
@@ -100,13 +105,19 @@ std::string wordsOf(const Texts& texts, const std::string& key) {
     return key.empty() ? "" : texts.at(key);
 }
 
+std::string capOf(const Form& form, const Question& question, int option) {
+    if (isOfTwo(question) && option <= 2)
+        return obscura::capOf(option == 1 ? form.keys().first.front() : form.keys().second.front());
+    return fmt::format("{}", option % 10);
+}
+
 // A key for each option, from 1; a scale's are those of its numbers where digits can say them.
 std::vector<Page::Option> optionsOf(const Texts& texts, const Form& form, std::size_t index) {
     const Question& question = form.questions()[index];
     const Form::Entry& entry = form.entries()[index];
     std::vector<Page::Option> options;
     for (int i = 1; i <= form.optionsOf(question); ++i) {
-        Page::Option option{fmt::format("{}", i % 10), "", entry.option == i};
+        Page::Option option{capOf(form, question, i), "", entry.option == i};
         const auto rank = std::find(entry.ranks.begin(), entry.ranks.end(), i);
         if (question.kind == Question::Kind::rank) {
             option.chosen = rank != entry.ranks.end();
@@ -171,10 +182,12 @@ Page::Pictures roomFor(const Phase& phase, int width, int height) {
     return pictures;
 }
 
-Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures) {
+Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictures,
+              const std::string& text) {
     Page page = blank(texts);
     page.pictures = pictures;
-    if (form.alone()) {
+    page.text = wordsOf(texts, text);
+    if (form.alone() && text.empty()) {
         page.heading = wordsOf(texts, form.questions().front().text);
         page.options = optionsOf(texts, form, 0);
         page.ofImages = isOfImages(form.questions().front());
@@ -182,6 +195,8 @@ Page formPage(const Texts& texts, const Form& form, const Page::Pictures& pictur
     }
     for (std::size_t i = 0; i < form.questions().size(); ++i)
         page.parts.push_back(partOf(texts, form, i));
+    if (form.alone()) // below what it is about; ended by the answer
+        return page;
     if (page.parts.size() > 1)
         page.note = texts.between;
     page.options = {{texts.enter, texts.done}};
@@ -206,6 +221,13 @@ Page leavePage(const Texts& texts) {
 Page thanksPage(const Texts& texts) {
     Page page = blank(texts);
     page.text = texts.thanks;
+    page.note = texts.anyKey;
+    return page;
+}
+
+Page declinedPage(const Texts& texts) {
+    Page page = blank(texts);
+    page.text = texts.declined;
     page.note = texts.anyKey;
     return page;
 }

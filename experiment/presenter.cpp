@@ -15,23 +15,9 @@ namespace obscura {
 namespace {
 
 constexpr double progressInterval = 0.1; // seconds
-constexpr const char* idTitle = "who takes part?";
 
 gl::Picture upload(const Image8& image) {
     return {image.width, image.height, image.channels, image.pixels};
-}
-
-// Types or deletes one character; false for all other input.
-bool edit(std::string& text, const gl::Input& input) {
-    const bool typed =
-        input.kind == gl::Input::Kind::text && input.symbol > 32 && input.symbol < 127;
-    const bool deleted =
-        input.kind == gl::Input::Kind::press && input.key == gl::Key::backspace && !text.empty();
-    if (typed)
-        text += static_cast<char>(input.symbol);
-    if (deleted)
-        text.pop_back();
-    return typed || deleted;
 }
 
 } // namespace
@@ -199,6 +185,7 @@ std::vector<Event> Presenter::events(bool wait) {
         case Kind::text:
             events.push_back({Event::Kind::text, input.time, {}, 0, 0, input.symbol});
             break;
+        case Kind::drag:
         case Kind::focusGained:
         case Kind::exposed:
             break;
@@ -246,7 +233,8 @@ bool Presenter::read(const Sheet& page) {
     turnTo(page);
     for (;;)
         for (const Event& event : answers()) {
-            if (event.key == gl::Key::space || event.kind == Event::Kind::option)
+            if (study_.protocol.keys.isGo(static_cast<int>(event.key)) ||
+                event.kind == Event::Kind::option)
                 return true;
             if (event.key == gl::Key::escape) {
                 if (leaves())
@@ -274,51 +262,21 @@ bool Presenter::instruct() { return read(sheet(instructionsPage(texts_), "instru
 
 bool Presenter::rest() { return read(sheet(restPage(texts_), "break")); }
 
-void Presenter::thank() {
-    const Sheet page = sheet(thanksPage(texts_), "thanks");
-    turnTo(page);
+void Presenter::dismiss(Page page, std::string title) {
+    const Sheet last = sheet(std::move(page), std::move(title));
+    turnTo(last);
     answers();
 }
 
-std::optional<std::string>
-Presenter::askId(const std::function<IdVerdict(const std::string&)>& judge) {
-    std::string typed, problem;
-    Sheet page = sheet(idPage(texts_, typed, problem), idTitle);
-    turnTo(page);
-    for (;;) {
-        const auto before = std::pair(typed, problem);
-        for (const gl::Input& input : inputs()) {
-            const bool press = input.kind == gl::Input::Kind::press;
-            if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
-                return std::nullopt;
-            if (press && input.key == gl::Key::enter) {
-                const IdVerdict verdict = judge(typed);
-                const bool confirmed = verdict.broken && goesOn(*verdict.broken);
-                if (confirmed || (verdict.accepted && !verdict.broken))
-                    return typed;
-                problem = isParticipantId(typed) ? texts_.idTaken : texts_.idMalformed;
-                if (verdict.broken) {
-                    typed.clear();
-                    problem.clear();
-                    turnTo(page);
-                }
-            }
-            if (edit(typed, input))
-                problem.clear();
-        }
-        if (before != std::pair(typed, problem)) {
-            page = sheet(idPage(texts_, typed, problem), idTitle);
-            showSheet(page);
-        }
-    }
-}
-
-bool Presenter::goesOn(int trials) {
-    return choose(sheet(resumePage(texts_, trials, longest(study_.protocol)), "go on?")) == 1;
+void Presenter::preparePage(const Phase& page) {
+    page_ = &page;
+    drawn_ = {};
+    preparedPage_ = {uploaded(screens_.phase(page, 0, 0), page.name), {}, 0, page.name};
 }
 
 void Presenter::prepare(const Upcoming& trial) {
     trial_ = trial;
+    page_ = nullptr;
     drawn_ = {};
     for (std::size_t i = 0; i < phases_.size(); ++i) {
         const Phase& phase = phases_[i];
@@ -344,8 +302,8 @@ double Presenter::show(const TrialMachine& trial) {
     if (trial.screen() == leaveScreen)
         return showSheet(leave_);
     const auto index = static_cast<std::size_t>(trial.screen());
-    const Phase& phase = phases_[index];
-    const Prepared& prepared = prepared_[index];
+    const Phase& phase = page_ ? *page_ : phases_[index];
+    const Prepared& prepared = page_ ? preparedPage_ : prepared_[index];
     if (const Form* form = trial.form(); form && form->changes() > 0) {
         if (drawn_ != std::pair(index, form->changes())) { // not at every refresh of a timed page
             answered_ =
@@ -359,8 +317,10 @@ double Presenter::show(const TrialMachine& trial) {
     if (!prepared.title.empty())
         title_ = prepared.title;
     std::span<const Placed> images = prepared.images;
-    if (phase.alternate > 0)
-        images = images.subspan(static_cast<std::size_t>(trial.alternation()), 1);
+    if (phase.alternate > 0) {
+        const std::size_t together = images.size() / static_cast<std::size_t>(phase.turns);
+        images = images.subspan(static_cast<std::size_t>(trial.alternation()) * together, together);
+    }
     return showImages(images, prepared.grey);
 }
 

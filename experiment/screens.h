@@ -18,6 +18,7 @@ struct Screenful {
     int grey = 128;                  // a code value
     std::vector<std::string> images; // each by its place in the order or its role,
     std::vector<Box> places;         // and where it goes
+    int turns = 1;         // > 1: an equal part of the images at a time, as they stand here
     bool mirrored = false; // the page's first option, or slider's low end, is on the right
 };
 
@@ -38,7 +39,7 @@ class Screens {
     // A page that has been laid out, as it looks while another window has the keyboard.
     Screenful unfocused(const Screenful& screen) const;
     // Of a phase, in the `trial`th of so many trials. One that asks shows how far `form` has been
-    // answered. One that shows images in turn has all of them, at one place.
+    // answered.
     Screenful phase(const Phase& phase, int trial, int trials, const Form& form) const;
     Screenful phase(const Phase& phase, int trial, int trials) const; // nothing answered yet
 

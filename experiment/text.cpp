@@ -47,13 +47,15 @@ PlacedPage place(Setter& setter, const Page& page, double top) {
     }
     setter.title(page.heading, 1.5, true);
     setter.gap(page.heading.empty() ? 0 : 0.9);
+    setter.facts(page.facts);
+    setter.gap(page.facts.empty() ? 0 : 0.9);
     setter.paragraph(page.text, 1);
     if (page.field) {
         setter.gap(1);
         setter.field(*page.field);
     }
     for (const Page::Part& part : page.parts) {
-        setter.gap(&part == &page.parts.front() ? 0 : 1);
+        setter.gap(&part == &page.parts.front() && page.text.empty() ? 0 : 1);
         placePart(setter, part, placed.options);
     }
     if (!page.note.empty()) {

@@ -13,8 +13,8 @@ int optionOf(gl::Key key) {
     return digit == 1 || digit == 2 ? digit : 0;
 }
 
-TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refreshHz)
-    : phases_(std::move(phases)), images_(images), refreshHz_(refreshHz) {
+TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refreshHz, Keys keys)
+    : phases_(std::move(phases)), images_(images), refreshHz_(refreshHz), keys_(std::move(keys)) {
     record_.phases.resize(phases_.size());
     const auto shows = [](const Phase& phase) { return !phase.images.empty(); };
     const auto first = std::find_if(phases_.begin(), phases_.end(), shows);
@@ -55,7 +55,7 @@ int TrialMachine::alternation() const {
     const Phase& current = phase(screen_);
     const int each = maskRefreshes(current.alternate, refreshHz_);
     const int shown = record_.phases[static_cast<std::size_t>(screen_)].framesShown;
-    return shown / each % static_cast<int>(current.images.size());
+    return shown / each % current.turns;
 }
 
 void TrialMachine::shown(double time) {
@@ -160,7 +160,7 @@ void TrialMachine::press(gl::Key key, double time) {
         leave(optionOf(key));
     else if (form_)
         answer(form_->press(key, viewed(screen_, time)), time);
-    else if (key == gl::Key::space && phase(screen_).key)
+    else if (keys_.isGo(static_cast<int>(key)) && phase(screen_).key)
         end(time);
 }
 
@@ -216,7 +216,7 @@ void TrialMachine::go(Screen screen) {
         return;
     form_.reset();
     if (screen < static_cast<Screen>(phases_.size()) && !phase(screen).questions.empty())
-        form_.emplace(phase(screen).questions, images_);
+        form_.emplace(phase(screen).questions, images_, keys_);
 }
 
 double TrialMachine::viewed(Screen screen, double time) const {

@@ -114,10 +114,11 @@ Setter::Block Setter::boxed(Layout layout) {
             static_cast<double>(right - left), static_cast<double>(bottom - top)};
 }
 
-Setter::Block Setter::block(const std::string& text, double size, bool bold, double wrapAt) const {
+Setter::Block Setter::block(const std::string& text, double size, bool bold, double wrapAt,
+                            const Script& script) const {
     if (text.empty())
         return {};
-    Layout layout = lay(text, size, bold, wrapAt);
+    Layout layout = lay(text, size, bold, wrapAt, script);
     narrow(layout.get());
     return boxed(std::move(layout));
 }
@@ -179,6 +180,29 @@ void Setter::paragraph(const std::string& text, double size, bool bold) {
 
 void Setter::title(const std::string& text, double size, bool bold) {
     centred(text, size, bold, PANGO_ALIGN_CENTER);
+}
+
+void Setter::facts(const std::vector<Page::Fact>& facts) {
+    constexpr double size = 0.75;
+    const double length = std::min(1.4 * column(), 0.9 * width_);
+    double names = 0, values = 0;
+    for (const Page::Fact& fact : facts)
+        names = std::max(names, block(fact.name, size, true, length / 2, {}).width);
+    const double beside = names + 1.2 * em_;
+    for (const Page::Fact& fact : facts)
+        values = std::max(values, block(fact.value, size, false, length - beside, {}).width);
+    const double x = (width_ - beside - values) / 2;
+    for (const Page::Fact& fact : facts) {
+        const Block name = block(fact.name, size, true, length / 2, {}),
+                    value = block(fact.value, size, false, length - beside, {});
+        if (drawing) {
+            ink(palette_.ink);
+            put(name, x, y);
+            put(value, x + beside, y);
+        }
+        tooWide |= beside + value.width > length + 1;
+        y += std::max(name.height, value.height) + 0.25 * em_;
+    }
 }
 
 void Setter::fill(double shade, double edge, double line) const {

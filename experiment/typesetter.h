@@ -59,6 +59,7 @@ class Setter {
     void warning(const std::string& text);
     void paragraph(const std::string& text, double size, bool bold = false);
     void title(const std::string& text, double size, bool bold); // each line in the middle
+    void facts(const std::vector<Page::Fact>& facts); // names at the left, values beside them
     Box field(const Page::Field& field);
     Box slider(const Page::Slider& slider);
     std::vector<Box> pictures(const Page::Pictures& pictures);
@@ -88,7 +89,11 @@ class Setter {
     Layout lay(const std::string& text, double size, bool bold, double wrapAt,
                const Script& script) const;
     static Block boxed(Layout layout);
-    Block block(const std::string& text, double size, bool bold, double wrapAt) const;
+    Block block(const std::string& text, double size, bool bold, double wrapAt) const {
+        return block(text, size, bold, wrapAt, script_);
+    }
+    Block block(const std::string& text, double size, bool bold, double wrapAt,
+                const Script& script) const;
     void ink(double grey) const { cairo_set_source_rgb(cairo_, grey, grey, grey); }
     void rounded(double x, double top, double width, double height, double radius) const;
     void put(const Block& block, double left, double top) const;

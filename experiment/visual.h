@@ -25,10 +25,12 @@ class VisualObserver : public Observer {
     void describe(nlohmann::ordered_json& sidecar) const override;
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
+    void preparePage(const Phase& page) override;
     double show(const TrialMachine& trial) override;
     std::vector<Event> events(bool wait) override;
     bool rest() override;
     void thank() override;
+    void decline() override;
 
   private:
     double attend();
@@ -37,6 +39,7 @@ class VisualObserver : public Observer {
 
     Presenter& presenter_;
     SimulatedParticipant participant_;
+    gl::Key go_; // ends a page
     gl::Fingers fingers_;
     const TrialMachine* trial_ = nullptr; // null on pages outside a trial
     double turn_ = 0; // when it presses Space there; 0: not seen yet; infinity: it has

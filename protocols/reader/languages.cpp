@@ -165,7 +165,8 @@ Texts parseTexts(TomlTable table, std::set<std::string> named, bool several, std
     checkComplete(words, texts, named);
     const auto read = [&](const std::string& key, std::string& text) {
         text = words.text(key);
-        texts.places[key] = words.placeOf(key);
+        if (words.own().has(key))
+            texts.places[key] = words.placeOf(key);
     };
     for (const TextKey& key : textKeys())
         if (const std::string name(key.name); words.has(name) || !mayLack(texts, key, named))
@@ -175,7 +176,8 @@ Texts parseTexts(TomlTable table, std::set<std::string> named, bool several, std
     for (const std::string& key : named)
         read(key, texts.own[key]);
     words.own().finish();
-    checkProgress(texts.progress, texts.places["progress"]);
+    if (const auto place = texts.places.find("progress"); place != texts.places.end())
+        checkProgress(texts.progress, place->second);
     return texts;
 }
 

@@ -138,14 +138,19 @@ void checkRoles(const Condition& condition, const Protocol& protocol, const Plac
     }
 }
 
-// What the phases show must be there.
+// What the phases show must be there, and what images are boosted against.
 void checkShown(const Condition& condition, const Protocol& protocol, const Place& place) {
-    for (const std::string& role : rolesOf(protocol.trial))
+    std::set<std::string> needed = rolesOf(protocol.trial);
+    if (protocol.boost)
+        needed.insert(protocol.boost->reference);
+    for (const std::string& role : needed)
         if (std::none_of(condition.roles.begin(), condition.roles.end(),
                          [&](const Role& each) { return each.name == role; }))
-            throw Error(place, fmt::format("expected an image \"{}\", which the trial shows, found "
-                                           "none",
-                                           role));
+            throw Error(place,
+                        fmt::format("expected an image \"{}\", which the {}, found none", role,
+                                    rolesOf(protocol.trial).contains(role)
+                                        ? "trial shows"
+                                        : "others are boosted against"));
 }
 
 void parsePair(TomlTable& table, const toml::node& pair, Condition& condition,
@@ -237,6 +242,23 @@ std::vector<Question> questionsOf(const std::vector<Phase>& phases) {
     return questions;
 }
 
+std::set<std::string> textsOf(const Protocol& protocol) {
+    std::set<std::string> keys = textsOf(phasesOf(protocol.trial));
+    keys.merge(textsOf(protocol.before));
+    keys.merge(textsOf(protocol.after));
+    return keys;
+}
+
+// Where another key than Space goes on, the texts that the study has not written name it.
+void nameGo(const Keys& keys, Texts& texts) {
+    if (keys.go.front() == Keys().go.front())
+        return;
+    if (!texts.places.contains("space"))
+        texts.space = capOf(keys.go.front());
+    if (texts.rest == Texts().rest) // translations of it name no key
+        texts.rest = fmt::format("Take a break. Press {} to go on.", texts.space);
+}
+
 ExGaussian parseTime(std::optional<TomlTable> table, ExGaussian fallback) {
     if (!table)
         return fallback;
@@ -281,11 +303,23 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     includedSha256 = techniques.includedSha256;
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
+    if (auto boost = root.table("boost"))
+        protocol.boost =
+            parseBoost(std::move(*boost), protocol.width, protocol.height, protocol.views);
     parseConditions(root, protocol);
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
                                           questionsOf(phasesOf(protocol.trial)));
-    parseLanguages(root, textsOf(phasesOf(protocol.trial)), protocol);
+    if (auto screen = root.table("screen"))
+        protocol.screen = parseScreenNeeds(std::move(*screen));
+    if (auto keys = root.table("keys"))
+        protocol.keys = parseKeys(std::move(*keys));
+    protocol.before = parsePages(root, "before");
+    protocol.after = parsePages(root, "after");
+    parseLanguages(root, textsOf(protocol), protocol);
+    nameGo(protocol.keys, protocol.texts);
+    for (Texts& translation : protocol.translations)
+        nameGo(protocol.keys, translation);
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();
@@ -314,6 +348,7 @@ std::span<const TextKey> textKeys() {
         {"leaveNote", &Texts::leaveNote},
         {"stay", &Texts::stay},
         {"end", &Texts::end},
+        {"declined", &Texts::declined},
         {"rest", &Texts::rest},
         {"id", &Texts::id},
         {"idNote", &Texts::idNote},

@@ -1,6 +1,9 @@
 #pragma once
 
+#include "protocols/reader/boost.h"
+#include "protocols/reader/keys.h"
 #include "protocols/reader/ordering.h"
+#include "protocols/reader/screen.h"
 #include "protocols/reader/study.h"
 #include "protocols/reader/trial.h"
 
@@ -59,6 +62,7 @@ struct Texts {
     std::string unfocused = "The keyboard is elsewhere: click here to go on";
     std::string leave = "End the session?", leaveNote = "Answers given so far are kept.";
     std::string stay = "Continue", end = "End";
+    std::string declined = "The session ends here. Thank you for your time!";
     std::string rest = "Take a break. Press the space bar to go on.";
     std::string id = "Type the participant's pseudonym and press Enter.";
     std::string idNote = "Letters and digits. Escape ends the program.";
@@ -108,7 +112,11 @@ struct Protocol {
     std::vector<Level> levels;
     std::vector<TechniqueSetting> techniques;
     std::vector<Condition> conditions;
+    std::optional<Boost> boost; // nothing: images are shown as they were rendered
     Trial trial;
+    std::vector<Phase> before, after; // pages around the trials, each shown once
+    Keys keys;
+    ScreenNeeds screen;
     Ordering ordering;
     Texts texts;                     // of the first language, or the only one
     std::vector<Texts> translations; // the others, in the order of the file

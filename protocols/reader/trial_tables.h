@@ -19,8 +19,8 @@ struct TrialKey {
     std::string studyId, participantId, sessionId;
     bool simulated = false, rehearsal = false;
     int slotId = 0;
-    int trialIndex = 0;             // from 1
-    std::string trialKind = "main"; // practice, main, catch or break
+    int trialIndex = 0;             // from 1; 0 for the pages around the trials
+    std::string trialKind = "main"; // practice, main, catch, or for those pages before or after
     int repeatIndex = 1, block = 1; // from 1
     std::string conditionId, level, scene, hypothesis;
     std::string roles;      // by place: "b>a"

@@ -52,11 +52,17 @@ class LanguageTest : public test::PresentedStudy {
     void seesChoice(test::Desktop& desktop, Program& program, std::size_t offered) {
         sees(desktop, program, "which language?", languagePage(study.protocol, offered));
     }
-    // From then on in this language.
-    void seesId(test::Desktop& desktop, Program& program, const std::string& language) {
+    // From then on in this language: past the experimenter's page, the participant's first.
+    void goesOnIn(test::Desktop& desktop, Program& program, const std::string& language,
+                  std::string Texts::*warning = &Texts::untimed) {
         study.language = language;
         ASSERT_EQ(study.texts().language, language);
-        sees(desktop, program, "who takes part?", idPage(study.texts(), "", ""));
+        const std::string title = "Obscura: who takes part?";
+        program.await(title, [&] { return desktop.title() == title; });
+        desktop.type("p01");
+        program.await("the id", [&] { return desktop.title() == title + " p01"; });
+        desktop.tap(XK_Return);
+        sees(desktop, program, "instructions", instructionsPage(study.texts()), warning);
     }
     nlohmann::json sidecar(const std::string& participant) const {
         const DataFolder own(data, study.protocol);
@@ -72,10 +78,7 @@ TEST_F(LanguageTest, IsChosenByNumberAndKeptInTheSidecar) {
     desktop.tap(XK_space);
     seesChoice(desktop, program, 0);
     desktop.tap(XK_2);
-    seesId(desktop, program, "ar");
-    desktop.type("p01");
-    desktop.tap(XK_Return);
-    sees(desktop, program, "instructions", instructionsPage(study.texts()));
+    goesOnIn(desktop, program, "ar");
     EXPECT_EQ(sidecar("p01").at("language"), "ar");
 }
 
@@ -94,7 +97,7 @@ TEST_F(LanguageTest, IsChosenByArrowsAndEnter) {
     desktop.tap(XK_Down);
     seesChoice(desktop, program, 2);
     desktop.tap(XK_Return);
-    seesId(desktop, program, "de");
+    goesOnIn(desktop, program, "de");
 }
 
 TEST_F(LanguageTest, IsChosenByMouse) {
@@ -106,7 +109,7 @@ TEST_F(LanguageTest, IsChosenByMouse) {
     const Box box = drawPage(page, width, height, 128).options.at(2);
     desktop.click(box.x - 5, box.y + 5); // beside it
     desktop.click(box.x + 5, box.y + 5);
-    seesId(desktop, program, "de");
+    goesOnIn(desktop, program, "de");
 }
 
 TEST_F(LanguageTest, WithoutTheKeyboardThePageSaysSoAndEscapeEnds) {
@@ -130,10 +133,7 @@ TEST_F(LanguageTest, IsNotAskedForWhenItIsGiven) {
     test::Desktop desktop(width, height);
     Program program(desktop.name(),
                     arguments({"--language", "DE", "--rehearse", "--allow-untimed"}), output);
-    study.language = "de";
-    sees(
-        desktop, program, "who takes part?", [&] { return idPage(study.texts(), "", ""); }(),
-        &Texts::rehearsal);
+    goesOnIn(desktop, program, "de", &Texts::rehearsal);
     program.kill();
     Program wrong("", arguments({"--language", "fr"}), output);
     EXPECT_EQ(wrong.wait(), 1);

@@ -95,7 +95,9 @@ class PresenterTest : public test::PresentedStudy {
     }
     void seesId(test::Desktop& desktop, Program& program, const std::string& typed,
                 const std::string& objection = "") {
-        sees(desktop, program, "who takes part?", drawn(idPage(texts, typed, objection)).image);
+        const std::string title = "Obscura: who takes part?" + (typed.empty() ? "" : " " + typed) +
+                                  (objection.empty() ? "" : " - " + objection);
+        program.await(title, [&] { return desktop.title() == title; });
     }
 
     // Steps of a session; each waits for the screen it expects.
@@ -470,7 +472,8 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
                    "enter = \"Eingabe\"\ndone = \"Fertig\"\nbetween = \"Hinauf und hinunter.\"\n"
                    "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"
                    "rehearsal = \"Probe\"\nuntimed = \"Ungenau\"\n"
-                   "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"});
+                   "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"
+                   "declined = \"Hier endet es.\"\n"});
     for (const TextKey& key : textKeys()) {
         const std::string usual = Texts().*key.text;
         EXPECT_TRUE(usual.empty() || texts.*key.text != usual) << key.name;

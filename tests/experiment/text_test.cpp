@@ -183,8 +183,12 @@ TEST(Text, TheShippedProtocolsFitTheirScreens) {
         const Protocol protocol = readProtocol(entry.path());
         for (const Texts* words : protocol.languages()) {
             EXPECT_NO_THROW(checkShowable(*words)) << entry.path();
-            for (Page page : {instructionsPage(*words), startPage(*words, 7, 7),
-                              questionPage(*words), leavePage(*words), thanksPage(*words)}) {
+            std::vector<Page> pages = {instructionsPage(*words), startPage(*words, 7, 7),
+                                       questionPage(*words),     leavePage(*words),
+                                       thanksPage(*words),       declinedPage(*words)};
+            for (const Phase& page : protocol.before)
+                pages.push_back(formPage(*words, Form(page.questions, 0), {}, page.text));
+            for (Page& page : pages) {
                 page.warning = words->untimed;
                 EXPECT_NO_THROW(drawPage(unfocused(page, *words), protocol.width, protocol.height,
                                          protocol.trial.grey))
