@@ -73,8 +73,10 @@ int playSlot(const Protocol& protocol, int slot) {
 } // namespace
 
 std::string checkRuns(const Protocol& protocol, int width, int height) {
-    checkShowable(protocol.texts);
-    Screens(protocol, width, height, "").check();
+    for (const Texts* texts : protocol.languages()) {
+        checkShowable(*texts);
+        Screens(protocol, *texts, width, height, "").check();
+    }
     const int slots = protocol.ordering.participants;
     int fewest = 0, most = 0;
     for (int slot = 1; slot <= slots; ++slot) {

@@ -9,6 +9,7 @@
 #include "experiment/check.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
+#include "experiment/language.h"
 #include "experiment/ledger.h"
 #include "experiment/ledger_command.h"
 #include "experiment/presenter.h"
@@ -41,7 +42,7 @@ namespace {
 
 struct Arguments {
     fs::path protocol, stimuli, data = "participant_data";
-    std::string participant;
+    std::string participant, language;
     int session = 1;
     int monitor = 1;
     std::string screenMm;
@@ -114,6 +115,10 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_option("--participant", arguments.participant,
                    "Pseudonym, letters and digits; asked for on the screen when not given")
         ->type_name("ID");
+    app.add_option("--language", arguments.language,
+                   "The participant's, a tag such as en or zh-Hans; chosen on the screen when not "
+                   "given and the study has several")
+        ->type_name("TAG");
     app.add_option("--session", arguments.session, "Which session of this participant")
         ->type_name("N")
         ->check(CLI::Range(1, 99))
@@ -241,9 +246,9 @@ int simulate(const Arguments& arguments, const Study& study) {
     return 0;
 }
 
-// What stands above every page of text, and on stderr: the session is no measurement. An Error on
-// a display that no data should be collected on.
-std::string warning(const Arguments& arguments, const Display& display) {
+// Which text stands above every page, and on stderr: the session is no measurement; or none. An
+// Error on a display that no data should be collected on.
+std::string Texts::*warning(const Arguments& arguments, const Display& display) {
     fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
     const Refresh& refresh = display.refresh();
     const std::string objection = display.objection();
@@ -259,9 +264,9 @@ std::string warning(const Arguments& arguments, const Display& display) {
                                                    refresh.doubt)
                                      : objection);
         if (!arguments.allowUntimed)
-            return "Untimed display: not suitable for data collection";
+            return &Texts::untimed;
     }
-    return arguments.rehearse ? "Rehearsal: answers do not count" : "";
+    return arguments.rehearse ? &Texts::rehearsal : nullptr;
 }
 
 // Of sessions whose process has died: what their journals have is written into their tables, one
@@ -340,11 +345,17 @@ Viewing viewingOn(const Arguments& arguments, const Study& study, const gl::Moni
 }
 
 // Nothing when the experimenter wants another monitor.
-std::optional<int> presentOn(const Arguments& arguments, const Study& study,
-                             const DataFolder& folder, int monitors) {
+std::optional<int> presentOn(const Arguments& arguments, Study& study, const DataFolder& folder,
+                             int monitors) {
     Display display(displayOptions(arguments, study), curtain(study));
     const Viewing viewing = viewingOn(arguments, study, display.monitor());
-    Presenter presenter(display, study, warning(arguments, display));
+    std::string Texts::*const above = warning(arguments, display);
+    const bool knows = arguments.resume && !arguments.participant.empty();
+    if (!settleLanguage(study, display, above ? study.protocol.texts.*above : "",
+                        knows ? folder.sidecar(sessionOf(arguments, folder, arguments.participant))
+                              : ""))
+        return 0;
+    Presenter presenter(display, study, above ? study.texts().*above : "");
     presenter.seenAs(viewing, calibrationOf(arguments.data, display.monitor()));
     Presenter::Start start{arguments.participant};
     if (arguments.participant.empty())
@@ -370,7 +381,7 @@ std::optional<int> presentOn(const Arguments& arguments, const Study& study,
     return 0;
 }
 
-int present(Arguments arguments, const Study& study) {
+int present(Arguments arguments, Study& study) {
     const DataFolder folder(arguments.data, study.protocol, arguments.rehearse);
     if (arguments.rehearse) {
         fmt::print(stderr,
@@ -443,7 +454,9 @@ int run(int argc, char** argv) {
                        : 1;
         if (arguments.check)
             return check(arguments);
-        const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        Study study = openStudy(arguments.protocol, arguments.stimuli);
+        if (!arguments.language.empty())
+            study.language = languageNamed(study.protocol, arguments.language);
         if (!arguments.preview.empty())
             return preview(arguments, study);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);

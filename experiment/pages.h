@@ -18,6 +18,8 @@ struct StartFacts {
 // What participants and experimenters read, page by page. Every word comes from the study's
 // protocol, or is its English default, so that all can be in the participant's language.
 
+// Which language: each by its name, in its own script. `chosen`: from 0.
+Page languagePage(const Protocol& protocol, std::size_t chosen);
 Page loadingPage(const Texts& texts, int loaded, int images);
 // For the experimenter, before the participant sits down: how things stand, and who takes part.
 Page idPage(const Texts& texts, const std::string& typed, const std::string& objection,
@@ -43,7 +45,7 @@ Page declinedPage(const Texts& texts); // an answer has ended the session before
 Page unfocused(Page page, const Texts& texts);
 
 // An Error names the first text with characters that no installed font can show, where it is in the
-// protocol, and those characters.
+// protocol, its language, and those characters.
 void checkShowable(const Texts& texts);
 
 } // namespace obscura

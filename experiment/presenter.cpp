@@ -23,16 +23,17 @@ gl::Picture upload(const Image8& image) {
 } // namespace
 
 Curtain curtain(const Study& study) {
-    checkShowable(study.protocol.texts);
+    for (const Texts* texts : study.protocol.languages())
+        checkShowable(*texts);
     return [&study](int width, int height) {
-        const Page page = loadingPage(study.protocol.texts, 0, imageCount(study.protocol));
+        const Page page = loadingPage(study.texts(), 0, imageCount(study.protocol));
         return drawPage(page, width, height, study.protocol.trial.grey).image;
     };
 }
 
 Presenter::Presenter(Display& display, const Study& study, std::string warning)
-    : display_(display), study_(study), texts_(study.protocol.texts),
-      screens_(study.protocol, display.window().width(), display.window().height(),
+    : display_(display), study_(study), texts_(study.texts()),
+      screens_(study.protocol, study.texts(), display.window().width(), display.window().height(),
                std::move(warning)),
       phases_(phasesOf(study.protocol.trial)), prepared_(phases_.size()) {
     screens_.check(); // what does not fit should stop the session before it begins
@@ -152,16 +153,23 @@ std::vector<gl::Input> Presenter::inputs() {
     return inputs;
 }
 
+// The arrow to the right means the option on the right: on a page from right to left, the first.
+gl::Key Presenter::asRead(gl::Key key) const {
+    if (!sheet_ || !sheet_->screen.mirrored)
+        return key;
+    return key == gl::Key::left ? gl::Key::right : key == gl::Key::right ? gl::Key::left : key;
+}
+
 std::vector<Event> Presenter::events(bool wait) {
     using Kind = gl::Input::Kind;
     std::vector<Event> events;
     for (const gl::Input& input : wait ? inputs() : display_.window().poll())
         switch (input.kind) {
         case Kind::press:
-            events.push_back({Event::Kind::press, input.time, input.key});
+            events.push_back({Event::Kind::press, input.time, asRead(input.key)});
             break;
         case Kind::release:
-            events.push_back({Event::Kind::release, input.time, input.key});
+            events.push_back({Event::Kind::release, input.time, asRead(input.key)});
             break;
         case Kind::focusLost:
             events.push_back({Event::Kind::focusLost, input.time});
@@ -197,6 +205,8 @@ Event Presenter::clicked(const gl::Input& input) const {
         return event;
     event.option = static_cast<int>(found - boxes.begin()) + 1;
     event.share = (input.x - found->x + 0.5) / found->width;
+    if (sheet_->screen.page.rightToLeft)
+        event.share = 1 - event.share;
     return event;
 }
 

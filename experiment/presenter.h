@@ -101,6 +101,7 @@ class Presenter : public Observer {
     std::vector<Placed> placed(const Screenful& screen) const;
     void announce();
     std::vector<gl::Input> inputs();
+    gl::Key asRead(gl::Key key) const;
     Event clicked(const gl::Input& input) const;
     std::vector<Event> answers();
     void turnTo(const Sheet& page);

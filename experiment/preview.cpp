@@ -40,12 +40,12 @@ std::string answerOf(const Phase& phase) {
 class Preview {
   public:
     Preview(const Study& study, int width, int height)
-        : study_(study), screens_(study.protocol, width, height, ""),
+        : study_(study), screens_(study.protocol, study.texts(), width, height, ""),
           trial_(upcoming(study.protocol, obscura::next(study.protocol, 1, {}).value(), 1,
                           longest(study.protocol))) {}
 
     std::vector<PreviewedScreen> all() {
-        const Texts& texts = study_.protocol.texts;
+        const Texts& texts = study_.texts();
         for (const Phase& page : study_.protocol.before)
             add(page);
         add("instructions", "Space or a click", screens_.page(instructionsPage(texts)));

@@ -10,8 +10,10 @@
 
 namespace obscura {
 
-Screens::Screens(const Protocol& protocol, int width, int height, std::string warning)
-    : protocol_(protocol), width_(width), height_(height), warning_(std::move(warning)) {}
+Screens::Screens(const Protocol& protocol, const Texts& texts, int width, int height,
+                 std::string warning)
+    : protocol_(protocol), texts_(texts), width_(width), height_(height),
+      warning_(std::move(warning)) {}
 
 Screenful Screens::page(Page page) const {
     page.warning = warning_;
@@ -22,14 +24,16 @@ Screenful Screens::drawn(Page page) const {
     Screenful screen;
     screen.drawn = drawPage(page, width_, height_, protocol_.trial.grey);
     screen.places = screen.drawn->pictures;
+    screen.mirrored = page.rightToLeft;
     screen.page = std::move(page);
     screen.grey = protocol_.trial.grey;
     return screen;
 }
 
 Screenful Screens::unfocused(const Screenful& screen) const {
-    Screenful result = drawn(obscura::unfocused(screen.page, protocol_.texts));
+    Screenful result = drawn(obscura::unfocused(screen.page, texts_));
     result.images = screen.images;
+    result.mirrored = screen.mirrored;
     return result;
 }
 
@@ -42,10 +46,13 @@ Screenful Screens::phase(const Phase& phase, int trial, int trials) const {
 Screenful Screens::phase(const Phase& phase, int trial, int trials, const Form& form) const {
     Screenful screen;
     screen.grey = phase.grey >= 0 ? phase.grey : protocol_.trial.grey;
-    if (!phase.questions.empty())
-        screen = page(formPage(protocol_.texts, form, roomFor(phase), phase.text));
-    else if (!phase.text.empty())
-        screen = page(textPage(protocol_.texts, phase, trial, trials));
+    if (!phase.questions.empty()) {
+        screen = page(formPage(texts_, form, roomFor(phase), phase.text));
+        const auto focus = static_cast<std::size_t>(form.focus());
+        screen.mirrored &=
+            !(screen.page.parts.empty() ? screen.page.ofImages : screen.page.parts[focus].ofImages);
+    } else if (!phase.text.empty())
+        screen = page(textPage(texts_, phase, trial, trials));
     else if (!phase.images.empty())
         screen.places = gridOf(phase);
     screen.turns = phase.turns;
@@ -82,7 +89,7 @@ std::vector<Box> Screens::gridOf(const Phase& phase) const {
 }
 
 void Screens::check() const {
-    const Texts& texts = protocol_.texts;
+    const Texts& texts = texts_;
     const int images = imageCount(protocol_), trials = longest(protocol_);
     for (const Page& each :
          {loadingPage(texts, images, images), idPage(texts, "", texts.idMalformed),

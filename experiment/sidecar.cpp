@@ -47,6 +47,7 @@ ordered_json circumstances(const Context& context, const Observer& observer) {
         {"session", context.session.number},
         {"simulated", context.session.simulated},
         {"rehearsal", context.session.rehearsal},
+        {"language", nullptr}, // in which participants read; null where the protocol says none
         {"slot", context.assignment.slot},
         {"square", context.assignment.square},
         {"square_row", context.assignment.row},
@@ -66,6 +67,8 @@ ordered_json circumstances(const Context& context, const Observer& observer) {
         {"ended", nullptr},
         {"end_reason", "running, or crashed"},
     };
+    if (const std::string& language = context.study.texts().language; !language.empty())
+        sidecar["language"] = language;
     observer.describe(sidecar);
     return sidecar;
 }

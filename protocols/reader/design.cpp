@@ -83,6 +83,10 @@ json toJson(const Texts& texts) {
     for (const TextKey& key : textKeys())
         words[std::string(key.name)] = texts.*key.text;
     words.update(json(texts.own));
+    if (!texts.language.empty())
+        words["language"] = texts.language;
+    if (!texts.name.empty())
+        words["name"] = texts.name;
     return words;
 }
 
@@ -117,8 +121,8 @@ json toJson(const Ordering& ordering) {
 }
 
 json toJson(const Question& question) {
-    const auto& [name, kind, text, options, images, unsure, lowest, least, most, low, high,
-                 optional, endsUnless, place] = question;
+    const auto& [name, kind, text, options, images, beside, unsure, lowest, least, most, low, high,
+                 optional, endsUnless, place] = question; // `beside` follows from the phases
     json result = {{"kind", static_cast<int>(kind)},
                    {"text", text},
                    {"options", options},
@@ -239,8 +243,8 @@ struct Parts {
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, boost, trial, before, after, keys, screen, ordering, words, simulation,
-                 path, sha256] = protocol;
+                 conditions, boost, trial, before, after, keys, screen, ordering, words,
+                 translations, simulation, path, sha256] = protocol;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -278,6 +282,8 @@ Parts split(const Protocol& protocol) {
           {"view", toJson(viewTime)},
           {"decision", toJson(decision)}}},
         {"conditions", parts.simulated}};
+    for (const Texts& translation : translations)
+        result.texts["languages"][translation.language] = toJson(translation);
     split(views, parts.views, "scenes", result.stimuli, result.texts);
     split(levels, parts.levels, "levels", result.stimuli, result.texts);
     split(techniques, parts.techniques, "techniques", result.stimuli, result.texts);

@@ -1,13 +1,13 @@
 #include "protocols/reader/protocol.h"
 
 #include "base/files.h"
+#include "protocols/reader/languages.h"
 #include "protocols/reader/study_parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 #include <set>
 
 namespace obscura {
@@ -242,15 +242,6 @@ std::vector<Question> questionsOf(const std::vector<Phase>& phases) {
     return questions;
 }
 
-// Braces around anything but the name of a number are a mistake in spelling.
-void checkProgress(const std::string& text, const Place& place) {
-    static const std::regex numbers(R"(\{pairs?\})");
-    if (std::regex_replace(text, numbers, "").find_first_of("{}") != std::string::npos)
-        throw Error(place, fmt::format("expected no braces but those of {{pair}} and {{pairs}}, "
-                                       "found \"{}\"",
-                                       text));
-}
-
 std::set<std::string> textsOf(const Protocol& protocol) {
     std::set<std::string> keys = textsOf(phasesOf(protocol.trial));
     keys.merge(textsOf(protocol.before));
@@ -258,34 +249,13 @@ std::set<std::string> textsOf(const Protocol& protocol) {
     return keys;
 }
 
-// Every text of the program's own, and those that phases and pages name besides.
-Texts parseTexts(TomlTable table, std::set<std::string> named) {
-    Texts texts;
-    for (const TextKey& key : textKeys()) {
-        std::string& text = texts.*key.text;
-        const bool isNamed = named.erase(std::string(key.name)) > 0;
-        const bool compulsory = key.compulsory || (isNamed && text.empty());
-        text = table.text(key.name, compulsory ? std::nullopt : std::optional(text));
-        if (const toml::node* node = table.node(key.name))
-            texts.places[std::string(key.name)] = table.placeOf(*node, table.pathOf(key.name));
-    }
-    for (const std::string& key : named) {
-        texts.own[key] = table.text(key);
-        texts.places[key] = table.placeOf(*table.node(key), table.pathOf(key));
-    }
-    table.finish();
-    checkProgress(texts.progress, texts.places["progress"]);
-    return texts;
-}
-
 // Where another key than Space goes on, the texts that the study has not written name it.
 void nameGo(const Keys& keys, Texts& texts) {
     if (keys.go.front() == Keys().go.front())
         return;
-    const std::string cap = capOf(keys.go.front());
     if (!texts.places.contains("space"))
-        texts.space = cap;
-    if (!texts.places.contains("rest"))
+        texts.space = capOf(keys.go.front());
+    if (texts.rest == Texts().rest) // translations of it name no key
         texts.rest = fmt::format("Take a break. Press {} to go on.", texts.space);
 }
 
@@ -346,9 +316,10 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
         protocol.keys = parseKeys(std::move(*keys));
     protocol.before = parsePages(root, "before");
     protocol.after = parsePages(root, "after");
-    protocol.texts =
-        parseTexts(root.requiredTable("texts", "what participants read"), textsOf(protocol));
+    parseLanguages(root, textsOf(protocol), protocol);
     nameGo(protocol.keys, protocol.texts);
+    for (Texts& translation : protocol.translations)
+        nameGo(protocol.keys, translation);
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();
@@ -383,6 +354,8 @@ std::span<const TextKey> textKeys() {
         {"idNote", &Texts::idNote},
         {"idMalformed", &Texts::idMalformed},
         {"idTaken", &Texts::idTaken},
+        {"rehearsal", &Texts::rehearsal},
+        {"untimed", &Texts::untimed},
         {"resume", &Texts::resume},
         {"otherId", &Texts::otherId},
     };
@@ -399,6 +372,13 @@ const View& Protocol::view(const std::string& wanted) const { return find(views,
 const Level& Protocol::level(const std::string& wanted) const { return find(levels, wanted); }
 const TechniqueSetting& Protocol::technique(const std::string& wanted) const {
     return find(techniques, wanted);
+}
+
+std::vector<const Texts*> Protocol::languages() const {
+    std::vector<const Texts*> all = {&texts};
+    for (const Texts& translation : translations)
+        all.push_back(&translation);
+    return all;
 }
 
 Protocol parseProtocol(const std::string& text, const std::string& file) {

@@ -198,6 +198,15 @@ void mustBeNew(std::set<std::string>& names, const std::string& name, const Plac
         throw Error(place, fmt::format("expected a new name, found \"{}\" again", name));
 }
 
+void noteBeside(std::vector<Phase>& phases) {
+    const bool beside = std::any_of(phases.begin(), phases.end(), [](const Phase& phase) {
+        return static_cast<int>(phase.images.size()) > phase.turns;
+    });
+    for (Phase& phase : phases)
+        for (Question& question : phase.questions)
+            question.beside = question.images && beside;
+}
+
 std::vector<Phase> parsePhases(TomlTable& owner, std::string_view key, std::string_view expected) {
     std::vector<Phase> phases;
     std::set<std::string> names, answers;
@@ -207,6 +216,7 @@ std::vector<Phase> parsePhases(TomlTable& owner, std::string_view key, std::stri
         for (const Question& question : phases.back().questions)
             mustBeNew(answers, question.name, question.place);
     }
+    noteBeside(phases);
     return phases;
 }
 

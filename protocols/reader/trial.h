@@ -21,7 +21,8 @@ struct Question {
     Kind kind = Kind::choice;
     std::string text;                 // what stands above it; "" for nothing
     std::vector<std::string> options; // of choice and scale
-    bool images = false;              // choice: option n is the n-th image of the trial's order
+    bool images = false;              // choice: option n is the n-th image of the trial's order,
+    bool beside = false;              // and the trial shows images beside each other
     std::string unsure;               // choice: one option more, recorded as "unsure"; "" for none
     int lowest = 1;                   // scale: the number of its first option
     double least = 0, most = 100;     // slider and number

@@ -131,10 +131,13 @@ TEST_P(Method, RunsToItsEndByKeys) {
     test::writeNoiseStimuli(readProtocol(protocol), stimuli);
     const Study study = openStudy(protocol, stimuli);
     test::Desktop desktop(1280, 720);
-    Program program(desktop.name(),
-                    {"--protocol", protocol.string(), "--stimuli", stimuli.string(), "--data",
-                     (folder.path() / "data").string(), "--participant", "P01"},
-                    folder.path() / "output.txt");
+    std::vector<std::string> arguments = {"--protocol",    protocol.string(),
+                                          "--stimuli",     stimuli.string(),
+                                          "--data",        (folder.path() / "data").string(),
+                                          "--participant", "P01"};
+    if (!study.protocol.translations.empty())
+        arguments.insert(arguments.end(), {"--language", study.protocol.texts.language});
+    Program program(desktop.name(), arguments, folder.path() / "output.txt");
     Participant(desktop, program, study.protocol).takePart();
 
     const DataFolder data(folder.path() / "data", study.protocol);

@@ -34,8 +34,6 @@ using test::Program;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr const char* banner = "Untimed display: not suitable for data collection";
-
 class PresenterTest : public test::PresentedStudy {
   protected:
     Texts& texts = study.protocol.texts;
@@ -49,8 +47,8 @@ class PresenterTest : public test::PresentedStudy {
     }
 
     // What the screen must show, to the pixel.
-    static DrawnPage drawn(Page page) {
-        page.warning = banner;
+    DrawnPage drawn(Page page) const {
+        page.warning = texts.untimed;
         return drawPage(page, width, height, 128);
     }
     static Image8 grey() {
@@ -343,7 +341,7 @@ TEST_F(PresenterTest, APageWithoutTheKeyboardSaysSo) {
     const auto comesAndGoes = [&](const std::string& title, Page page) {
         sees(desktop, program, title, drawn(page).image);
         desktop.takeFocus();
-        page.warning = banner;
+        page.warning = texts.untimed;
         sees(desktop, program, title, drawPage(unfocused(page, texts), width, height, 128).image);
         desktop.returnFocus();
         sees(desktop, program, title, drawn(page).image);
@@ -473,6 +471,7 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
                    "end = \"Abbrechen\"\nrest = \"Pause\"\nid = \"Pseudonym, dann Eingabe\"\n"
                    "enter = \"Eingabe\"\ndone = \"Fertig\"\nbetween = \"Hinauf und hinunter.\"\n"
                    "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"
+                   "rehearsal = \"Probe\"\nuntimed = \"Ungenau\"\n"
                    "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"
                    "declined = \"Hier endet es.\"\n"});
     for (const TextKey& key : textKeys()) {
