@@ -1,14 +1,18 @@
 #include "analysis/answers.h"
 
+#include "base/csv.h"
 #include "base/files.h"
+#include "base/parallel.h"
 #include "protocols/reader/design.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <ctime>
+#include <exception>
 #include <functional>
-#include <iterator>
 #include <map>
+#include <set>
 
 namespace obscura {
 
@@ -58,14 +62,10 @@ std::vector<fs::path> filesOf(std::span<const fs::path> data) {
     return files;
 }
 
-std::string at(const Answer& answer) {
-    return fmt::format("{}:{}", answer.place.file, answer.place.line);
-}
+std::string at(const Answer& answer) { return fmt::format("{}:{}", answer.file, answer.line); }
 
 [[noreturn]] void refuse(const Answer& answer, std::string_view column, const std::string& why) {
-    Place place = answer.place;
-    place.key = column;
-    throw Error(place, why);
+    throw Error(answer.place(column), why);
 }
 
 void removeSimulated(std::vector<Answer>& answers, SimulatedRows rule, LeftOut& leftOut) {
@@ -94,22 +94,23 @@ void removeRehearsals(Answers& answers) {
 
 // Rows may differ in their texts, but not in their design. Rows of a version that kept no design
 // count as of the same one if they come from the same protocol file.
-bool sameDesign(const Response& x, const Response& y) {
-    const bool known = !x.designSha256.empty() && !y.designSha256.empty();
+bool sameDesign(const Vote& x, const Vote& y) {
+    const bool known = x.designSha256 != Symbol() && y.designSha256 != Symbol();
     return known ? x.designSha256 == y.designSha256 : x.protocolSha256 == y.protocolSha256;
 }
 
 void requireOneDesign(const std::vector<Answer>& answers) {
-    std::map<std::string, std::vector<const Answer*>> kinds; // by study, as they came
+    std::map<std::uint32_t, std::vector<const Answer*>> kinds; // by study, as they came
     for (const Answer& answer : answers) {
-        auto& known = kinds[answer.row.studyId];
+        auto& known = kinds[answer.row.studyId.number()];
         const auto alike = [&](const Answer* other) { return sameDesign(answer.row, other->row); };
         if (!known.empty() && std::none_of(known.begin(), known.end(), alike))
             refuse(answer, "design_sha256",
                    fmt::format("a design of study \"{}\" other than in {} (protocol {:.12}..., not "
                                "{:.12}...); --allow-mixed-protocols pools them",
-                               answer.row.studyId, at(*known.front()), answer.row.protocolSha256,
-                               known.front()->row.protocolSha256));
+                               answer.row.studyId, at(*known.front()),
+                               answer.row.protocolSha256.text(),
+                               known.front()->row.protocolSha256.text()));
         const auto equal = [&](const Answer* other) {
             return answer.row.designSha256 == other->row.designSha256 &&
                    answer.row.protocolSha256 == other->row.protocolSha256;
@@ -145,13 +146,16 @@ int columnNumber(std::string_view name) {
 // `S01` and `s01` are one person, written twice.
 template <auto field>
 void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column) {
-    std::map<std::pair<std::string, std::string>, const Answer*> seen;
+    std::map<std::pair<std::uint32_t, std::string>, const Answer*> seen;
+    std::set<std::pair<std::uint32_t, std::uint32_t>> known; // study and name
     for (const Answer& answer : answers) {
-        const std::string& name = answer.row.*field;
-        const auto [first, isNew] = seen.try_emplace({answer.row.studyId, folded(name)}, &answer);
+        const Symbol study = answer.row.studyId, name = answer.row.*field;
+        if (!known.insert({study.number(), name.number()}).second)
+            continue;
+        const auto [first, isNew] = seen.try_emplace({study.number(), folded(name)}, &answer);
         if (const Answer& other = *first->second; other.row.*field != name)
             throw Error(
-                {answer.place.file, answer.place.line, columnNumber(column), std::string(column)},
+                {answer.file, answer.line, columnNumber(column), std::string(column)},
                 fmt::format("expected \"{}\" as in {}, found \"{}\"; write it one way in all "
                             "rows, or with more than a letter's case between them",
                             other.row.*field, at(other), name));
@@ -159,50 +163,70 @@ void requireOneSpelling(const std::vector<Answer>& answers, std::string_view col
 }
 
 void requireOneSpelling(const std::vector<Answer>& answers) {
-    requireOneSpelling<&Response::participantId>(answers, "participant_id");
-    requireOneSpelling<&Response::conditionId>(answers, "condition_id");
-    requireOneSpelling<&Response::level>(answers, "level");
-    requireOneSpelling<&Response::scene>(answers, "scene");
+    requireOneSpelling<&Vote::participantId>(answers, "participant_id");
+    requireOneSpelling<&Vote::conditionId>(answers, "condition_id");
+    requireOneSpelling<&Vote::level>(answers, "level");
+    requireOneSpelling<&Vote::scene>(answers, "scene");
 }
 
-using Key = std::vector<std::string>;
+// What two rows must not share.
+using Key = std::array<std::uint64_t, 3>;
+
+Key rowOf(const Vote& row) { return {row.studyId.number(), row.rowIdHash[0], row.rowIdHash[1]}; }
+
+Key trialOf(const Vote& row) {
+    const auto both = [](std::uint64_t high, std::uint64_t low) { return high << 32 | low; };
+    return {both(row.studyId.number(), row.participantId.number()),
+            both(row.sessionId.number(), row.trialKind.number()),
+            both(row.conditionId.number(), static_cast<std::uint32_t>(row.repeatIndex))};
+}
+
+std::string inWords(const Vote& row) {
+    return fmt::format("{} participant {} session {} {} condition {} repeat {}", row.studyId,
+                       row.participantId, row.sessionId, row.trialKind, row.conditionId,
+                       row.repeatIndex);
+}
 
 // Leaves out each row whose key an earlier row has, or refuses it.
 int removeRepeated(std::vector<Answer>& answers, std::string_view column, bool allowed,
-                   Key (*key)(const Response&)) {
-    std::map<Key, std::string> seen;
-    const auto repeated = [&](const Answer& answer) {
-        const auto [first, isNew] = seen.try_emplace(key(answer.row), at(answer));
-        if (!isNew && !allowed)
-            refuse(answer, column,
-                   fmt::format("{} was answered before, in {}; --allow-duplicates counts the "
-                               "first of such rows and leaves out the others",
-                               fmt::join(first->first, " "), first->second));
-        return !isNew;
-    };
-    std::vector<Answer> kept;
-    std::copy_if(answers.begin(), answers.end(), std::back_inserter(kept), std::not_fn(repeated));
-    const auto removed = answers.size() - kept.size();
-    answers = std::move(kept);
-    return static_cast<int>(removed);
+                   Key (*key)(const Vote&)) {
+    std::vector<std::pair<Key, std::uint32_t>> keys;
+    keys.reserve(answers.size());
+    for (const Answer& answer : answers)
+        keys.emplace_back(key(answer.row), static_cast<std::uint32_t>(keys.size()));
+    std::sort(keys.begin(), keys.end()); // of equal ones, as they came
+    std::vector<bool> repeats(answers.size());
+    std::size_t first = answers.size(); // of the repeats
+    for (std::size_t i = 1; i < keys.size(); ++i)
+        if (keys[i].first == keys[i - 1].first) {
+            repeats[keys[i].second] = true;
+            first = std::min<std::size_t>(first, keys[i].second);
+        }
+    if (first == answers.size())
+        return 0;
+    if (!allowed) {
+        const Answer& answer = answers[first];
+        const auto original = std::find_if(answers.begin(), answers.end(), [&](const Answer& one) {
+            return key(one.row) == key(answer.row);
+        });
+        refuse(answer, column,
+               fmt::format("{} was answered before, in {}; --allow-duplicates counts the first of "
+                           "such rows and leaves out the others",
+                           inWords(answer.row), at(*original)));
+    }
+    std::size_t index = 0;
+    return static_cast<int>(
+        std::erase_if(answers, [&](const Answer&) { return repeats[index++]; }));
 }
 
 int removeDuplicates(std::vector<Answer>& answers, bool allowed) {
-    const auto rowId = [](const Response& row) { return Key{row.studyId, "row", row.rowId}; };
-    const auto trial = [](const Response& row) {
-        return Key{row.studyId,       "participant",
-                   row.participantId, "session",
-                   row.sessionId,     row.trialKind,
-                   "condition",       row.conditionId,
-                   "repeat",          std::to_string(row.repeatIndex)};
-    };
-    return removeRepeated(answers, "row_id", allowed, rowId) +
-           removeRepeated(answers, "condition_id", allowed, trial);
+    return removeRepeated(answers, "row_id", allowed, rowOf) +
+           removeRepeated(answers, "condition_id", allowed, trialOf);
 }
 
 int removeKind(std::vector<Answer>& answers, std::string_view kind) {
-    return static_cast<int>(
-        std::erase_if(answers, [&](const Answer& a) { return a.row.trialKind == kind; }));
+    return static_cast<int>(std::erase_if(
+        answers, [name = Symbol(kind)](const Answer& a) { return a.row.trialKind == name; }));
 }
 
 // What the presenter has kept of the protocol beside the data; nothing where it has not.
@@ -213,21 +237,118 @@ void readOrder(const fs::path& folder, std::vector<std::string>& order) {
             order.push_back(condition);
 }
 
+// A text's symbol, found at once when it is that of the row before.
+Symbol symbolOf(const std::string& text, Symbol before) {
+    return before.text() == text ? before : Symbol(text);
+}
+
+// FNV-1a, and the library's: as good as one of 128 bits.
+std::array<std::uint64_t, 2> hashOf(std::string_view text) {
+    std::uint64_t hash = 14695981039346656037ull;
+    for (const char c : text)
+        hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+    return {hash, std::hash<std::string_view>()(text)};
+}
+
+// Of "2026-01-31T23:59:59Z", whose form has been checked.
+std::int64_t secondsOf(const std::string& time) {
+    const auto number = [&](std::size_t at, std::size_t length) {
+        int value = 0;
+        readCell(std::string_view(time).substr(at, length), value);
+        return value;
+    };
+    std::tm parts{};
+    parts.tm_year = number(0, 4) - 1900;
+    parts.tm_mon = number(5, 2) - 1;
+    parts.tm_mday = number(8, 2);
+    return std::int64_t{::timegm(&parts)} + 3600 * number(11, 2) + 60 * number(14, 2) +
+           number(17, 2);
+}
+
+struct FileRows {
+    std::vector<Answer> rows;
+    ResponseRows read;
+    std::exception_ptr error;
+};
+
+FileRows readFileRows(const fs::path& path, bool lenient) {
+    FileRows file;
+    const Symbol name(path.string());
+    try {
+        file.read = eachResponse(path, lenient, [&](const Response& row, int line) {
+            const Vote above = file.rows.empty() ? Vote() : file.rows.back().row;
+            file.rows.push_back({Vote(row, above), name, line});
+        });
+    } catch (...) {
+        file.error = std::current_exception();
+    }
+    return file;
+}
+
+// Several files at once, some hundreds together; of their errors the first is thrown.
 Answers readAll(const std::vector<fs::path>& files, bool lenient) {
+    constexpr std::size_t together = 512;
     Answers answers;
-    for (const fs::path& file : files) {
-        ResponseFile read = readResponses(file, lenient);
-        for (std::size_t i = 0; i < read.rows.size(); ++i)
-            answers.counted.push_back(
-                {std::move(read.rows[i]), {file.string(), read.lines[i], 0, {}}});
-        answers.bad.insert(answers.bad.end(), read.bad.begin(), read.bad.end());
-        ++answers.files;
-        answers.earlierFiles += read.version < Response().schemaVersion;
+    for (std::size_t begin = 0; begin < files.size(); begin += together) {
+        std::vector<FileRows> read(std::min(together, files.size() - begin));
+        forEachInParallel(
+            read.size(), [&](std::size_t i) { read[i] = readFileRows(files[begin + i], lenient); });
+        for (FileRows& file : read) {
+            if (file.error)
+                std::rethrow_exception(file.error);
+            answers.counted.insert(answers.counted.end(), file.rows.begin(), file.rows.end());
+            answers.bad.insert(answers.bad.end(), file.read.bad.begin(), file.read.bad.end());
+            ++answers.files;
+            answers.earlierFiles += file.read.version < Response().schemaVersion;
+        }
     }
     return answers;
 }
 
 } // namespace
+
+Vote::Vote(const Response& row, const Vote& above) {
+    aFirst = row.firstIs == "a";
+    studyId = symbolOf(row.studyId, above.studyId);
+    participantId = symbolOf(row.participantId, above.participantId);
+    sessionId = symbolOf(row.sessionId, above.sessionId);
+    conditionId = symbolOf(row.conditionId, above.conditionId);
+    level = symbolOf(row.level, above.level);
+    scene = symbolOf(row.scene, above.scene);
+    hypothesis = symbolOf(row.hypothesis, above.hypothesis);
+    techniqueA = symbolOf(row.techniqueA, above.techniqueA);
+    techniqueB = symbolOf(row.techniqueB, above.techniqueB);
+    sha256A = symbolOf(aFirst ? row.sha256First : row.sha256Second, above.sha256A);
+    sha256B = symbolOf(aFirst ? row.sha256Second : row.sha256First, above.sha256B);
+    trialKind = symbolOf(row.trialKind, above.trialKind);
+    timestampSource = symbolOf(row.timestampSource, above.timestampSource);
+    appVersion = symbolOf(row.appVersion, above.appVersion);
+    gitCommit = symbolOf(row.gitCommit, above.gitCommit);
+    protocolSha256 = symbolOf(row.protocolSha256, above.protocolSha256);
+    designSha256 = symbolOf(row.designSha256, above.designSha256);
+    machineId = symbolOf(row.machineId, above.machineId);
+    rowIdHash = hashOf(row.rowId);
+    wallTime = secondsOf(row.wallTimeUtc);
+    maskMs = row.maskMs;
+    view1Ms = row.view1Ms;
+    view2Ms = row.view2Ms;
+    decisionRtMs = row.decisionRtMs;
+    refreshHz = row.refreshHz;
+    slotId = row.slotId;
+    squareId = row.squareId;
+    squareRow = row.squareRow;
+    trialIndex = row.trialIndex;
+    repeatIndex = row.repeatIndex;
+    maskFramesPlanned = row.maskFramesPlanned;
+    maskFramesShown = row.maskFramesShown;
+    missedFrames = row.missedFrames;
+    earlyPressesInMask = row.earlyPressesInMask;
+    simulated = row.simulated;
+    rehearsal = row.rehearsal;
+    pairsReversed = row.pairsReversed;
+    choseB = row.choseB;
+    interrupted = row.interrupted;
+}
 
 Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules) {
     Answers answers = readAll(filesOf(data), rules.lenient);

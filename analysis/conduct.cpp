@@ -1,13 +1,17 @@
 #include "analysis/conduct.h"
 
-#include "analysis/frequencies.h"
 #include "base/percentile.h"
 
+#include "inference/counts.h"
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
+#include <cstdint>
 #include <tuple>
+#include <unordered_map>
+#include <unordered_set>
 
 namespace obscura {
 
@@ -16,30 +20,50 @@ namespace {
 template <auto field>
 Spread spreadOf(const std::vector<Answer>& answers) {
     std::vector<double> values;
+    values.reserve(answers.size());
     for (const Answer& answer : answers)
         values.push_back(answer.row.*field);
     return spread(values);
 }
 
+std::uint64_t both(Symbol x, Symbol y) { return std::uint64_t{x.number()} << 32 | y.number(); }
+
+// The number of rows for each key.
+template <typename Key, typename KeyOf>
+std::map<Key, int> countBy(const std::vector<Answer>& answers, const KeyOf& keyOf) {
+    std::vector<Key> keys;
+    keys.reserve(answers.size());
+    for (const Answer& answer : answers)
+        keys.push_back(keyOf(answer.row));
+    std::sort(keys.begin(), keys.end());
+    std::map<Key, int> counts;
+    for (const Key& key : keys)
+        ++counts.emplace_hint(counts.end(), key, 0)->second;
+    return counts;
+}
+
 void countPeople(const std::vector<Answer>& answers, Conduct& conduct) {
-    using Person = std::pair<std::string, std::string>;
-    std::map<Person, std::map<std::string, int>> votes;
-    for (const auto& [row, place] : answers) {
-        const int given = ++votes[{row.studyId, row.participantId}][row.conditionId];
+    std::uint64_t person = 0;
+    for (const auto& [key, given] :
+         countBy<std::pair<std::uint64_t, std::uint32_t>>(answers, [](const Vote& row) {
+             return std::pair(both(row.studyId, row.participantId), row.conditionId.number());
+         })) {
+        conduct.participants += conduct.participants == 0 || key.first != person;
+        person = key.first;
         conduct.mostVotes = std::max(conduct.mostVotes, given);
     }
-    conduct.participants = static_cast<int>(votes.size());
 }
 
 void countSessions(const std::vector<Answer>& answers, Conduct& conduct) {
     struct Session {
-        const Response* row = nullptr;
+        const Vote* row = nullptr;
         int trials = 0;
     };
-    std::map<std::tuple<std::string, std::string, std::string>, Session> sessions;
+    std::map<std::pair<std::uint64_t, std::uint32_t>, Session> sessions;
     int longest = 0;
-    for (const auto& [row, place] : answers) {
-        Session& session = sessions[{row.studyId, row.participantId, row.sessionId}];
+    for (const Answer& answer : answers) {
+        const Vote& row = answer.row;
+        Session& session = sessions[{both(row.studyId, row.participantId), row.sessionId.number()}];
         session.row = &row;
         longest = std::max(longest, ++session.trials);
     }
@@ -52,33 +76,48 @@ void countSessions(const std::vector<Answer>& answers, Conduct& conduct) {
     }
 }
 
-void countTrial(const Response& row, Conduct& conduct) {
+using ShownByCondition = std::unordered_map<std::uint32_t, Conduct::Shown>;
+
+void countTrial(const Vote& row, ShownByCondition& shownBy,
+                std::unordered_map<std::uint32_t, int>& sources, Conduct& conduct) {
     conduct.simulated += row.simulated;
     conduct.interrupted += row.interrupted;
-    conduct.secondChosen += row.chosenPosition == 2;
-    Conduct::Shown& shown = conduct.shown[row.conditionId];
-    const bool bFirst = row.firstIs == "b";
-    ++(bFirst ? shown.bFirst : shown.bSecond);
-    (bFirst ? shown.bChosenFirst : shown.bChosenSecond) += row.choseB;
-    ++conduct.timestampSources[row.timestampSource];
+    conduct.secondChosen += row.choseSecond();
+    Conduct::Shown& shown = shownBy[row.conditionId.number()];
+    ++(row.aFirst ? shown.bSecond : shown.bFirst);
+    (row.aFirst ? shown.bChosenSecond : shown.bChosenFirst) += row.choseB;
+    ++sources[row.timestampSource.number()];
     conduct.wrongMasks += row.maskFramesShown != row.maskFramesPlanned;
     conduct.missedFrames += row.missedFrames > 0;
     conduct.earlyPresses += row.earlyPressesInMask > 0;
 }
 
+void countTrials(const std::vector<Answer>& answers, Conduct& conduct) {
+    ShownByCondition shown;
+    std::unordered_map<std::uint32_t, int> sources;
+    for (const Answer& answer : answers)
+        countTrial(answer.row, shown, sources, conduct);
+    for (const auto& [condition, counts] : shown)
+        conduct.shown[Symbol::numbered(condition)] = counts;
+    for (const auto& [source, trials] : sources)
+        conduct.timestampSources[Symbol::numbered(source)] = trials;
+}
+
 void noteProvenance(const std::vector<Answer>& answers, Conduct& conduct) {
-    std::map<std::string, std::set<std::string>> images;
-    for (const auto& [row, place] : answers) {
-        const bool aFirst = row.firstIs == "a";
-        images[row.conditionId].insert((aFirst ? row.sha256First : row.sha256Second) +
-                                       (aFirst ? row.sha256Second : row.sha256First));
-        conduct.protocols.insert(row.protocolSha256);
-        conduct.programs.insert(fmt::format("{} ({})", row.appVersion, row.gitCommit));
-        conduct.machines.insert(row.machineId);
+    std::unordered_map<std::uint32_t, std::uint64_t> images; // of each condition, the first seen
+    std::unordered_set<std::uint64_t> programs;
+    std::unordered_set<std::uint32_t> protocols, machines;
+    for (const auto& [row, file, line] : answers) {
+        const std::uint64_t pair = both(row.sha256A, row.sha256B);
+        if (images.try_emplace(row.conditionId.number(), pair).first->second != pair)
+            conduct.changedImages.insert(row.conditionId);
+        if (protocols.insert(row.protocolSha256.number()).second)
+            conduct.protocols.insert(row.protocolSha256);
+        if (programs.insert(both(row.appVersion, row.gitCommit)).second)
+            conduct.programs.insert(fmt::format("{} ({})", row.appVersion, row.gitCommit));
+        if (machines.insert(row.machineId.number()).second)
+            conduct.machines.insert(row.machineId);
     }
-    for (const auto& [condition, versions] : images)
-        if (versions.size() > 1)
-            conduct.changedImages.insert(condition);
 }
 
 template <auto field>
@@ -88,6 +127,10 @@ auto rangeOf(const std::vector<Answer>& answers) {
             return x.row.*field < y.row.*field;
         });
     return std::pair(least->row.*field, most->row.*field);
+}
+
+std::string utcOf(std::int64_t seconds) {
+    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(seconds)));
 }
 
 } // namespace
@@ -107,15 +150,16 @@ Conduct conductOf(const Answers& answers) {
     conduct.bad = answers.bad;
     countPeople(counted, conduct);
     countSessions(counted, conduct);
-    for (const Answer& answer : counted)
-        countTrial(answer.row, conduct);
+    countTrials(counted, conduct);
     noteProvenance(counted, conduct);
-    conduct.maskMs = spreadOf<&Response::maskMs>(counted);
-    conduct.view1Ms = spreadOf<&Response::view1Ms>(counted);
-    conduct.view2Ms = spreadOf<&Response::view2Ms>(counted);
-    conduct.decisionMs = spreadOf<&Response::decisionRtMs>(counted);
-    std::tie(conduct.slowestHz, conduct.fastestHz) = rangeOf<&Response::refreshHz>(counted);
-    std::tie(conduct.firstTime, conduct.lastTime) = rangeOf<&Response::wallTimeUtc>(counted);
+    conduct.maskMs = spreadOf<&Vote::maskMs>(counted);
+    conduct.view1Ms = spreadOf<&Vote::view1Ms>(counted);
+    conduct.view2Ms = spreadOf<&Vote::view2Ms>(counted);
+    conduct.decisionMs = spreadOf<&Vote::decisionRtMs>(counted);
+    std::tie(conduct.slowestHz, conduct.fastestHz) = rangeOf<&Vote::refreshHz>(counted);
+    const auto [first, last] = rangeOf<&Vote::wallTime>(counted);
+    conduct.firstTime = utcOf(first);
+    conduct.lastTime = utcOf(last);
     return conduct;
 }
 

@@ -1,5 +1,6 @@
 #include "analysis/findings.h"
 
+#include "inference/tails.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,9 @@
-// obscura-analysis: the answers of a study, or published counts, become a table, a CSV and a page.
+// obscura-analysis: the answers of a study, or published counts, become a table, a CSV and a page;
+// its command export writes a study's data in the form of a standard.
 
+#include "analysis/export/command.h"
 #include "analysis/findings.h"
+#include "analysis/golden/golden.h"
 #include "analysis/report.h"
 #include "analysis/table.h"
 #include "base/files.h"
@@ -105,7 +108,21 @@ int analyse(int argc, char** argv) {
     Options options;
     declare(app, options);
     declareRules(app, options.rules);
+    ExportOptions exported;
+    const CLI::App* exporting = declareExport(app, exported);
+    fs::path golden;
+    CLI::App* checking = app.add_subcommand(
+        "golden", "Compute statistics that another program has computed, and compare them");
+    checking->add_option("DIR", golden, "Folder with golden_values.csv and the data files it is of")
+        ->required()
+        ->option_text(" ");
     CLI11_PARSE(app, argc, argv);
+    if (exporting->parsed()) {
+        exportStudy(exported);
+        return 0;
+    }
+    if (checking->parsed())
+        return printGolden(golden);
     if (options.data.empty() && options.counts.empty())
         throw Error("expected a study's folder, CSV files, or --counts FILE; see --help");
 

@@ -11,6 +11,7 @@
 #include <cassert>
 #include <map>
 #include <set>
+#include <unordered_map>
 
 namespace obscura {
 
@@ -31,17 +32,17 @@ Tally emptyTally(const ConditionRecord& pair) {
             pair.image("a").name, pair.image("b").name, {}};
 }
 
-Tally emptyTally(const Response& row) {
+Tally emptyTally(const Vote& row) {
     return {row.conditionId, row.level,      row.scene, row.hypothesis,
             row.techniqueA,  row.techniqueB, {}};
 }
 
 std::vector<Tally> emptyTallies(const std::vector<Answer>& answers,
                                 const std::vector<std::string>& order) {
-    std::set<std::string> known;
+    std::set<std::uint32_t> known;
     std::vector<Tally> tallies;
     for (const Answer& answer : answers)
-        if (known.insert(answer.row.conditionId).second)
+        if (known.insert(answer.row.conditionId.number()).second)
             tallies.push_back(emptyTally(answer.row));
     std::ranges::stable_sort(tallies, {}, [&](const Tally& tally) { // those not in it are last
         return std::find(order.begin(), order.end(), tally.condition) - order.begin();
@@ -55,7 +56,7 @@ std::string pairOf(const Tally& tally) {
 }
 
 [[noreturn]] void fail(const Answer& answer, std::string_view column, const std::string& message) {
-    throw Error({answer.place.file, answer.place.line, 0, std::string(column)}, message);
+    throw Error(answer.place(column), message);
 }
 
 Tally& tallyOf(const Answer& answer, std::vector<Tally>& tallies) {
@@ -78,16 +79,25 @@ Tally& tallyOf(const Answer& answer, std::vector<Tally>& tallies) {
 
 // What participants saw must be what the report shows.
 void checkImages(const Answer& answer, const Manifest& stimuli) {
-    const Response& row = answer.row;
-    const auto pair =
-        std::find_if(stimuli.conditions.begin(), stimuli.conditions.end(),
-                     [&](const ConditionRecord& p) { return p.condition == row.conditionId; });
+    const Vote& row = answer.row;
+    const auto pair = std::find_if(
+        stimuli.conditions.begin(), stimuli.conditions.end(),
+        [&](const ConditionRecord& p) { return p.condition == row.conditionId.text(); });
     assert(pair != stimuli.conditions.end()); // tallyOf() has looked it up
-    const bool aFirst = row.firstIs == "a";
-    if (row.sha256First != (aFirst ? pair->image("a") : pair->image("b")).image.sha256)
-        fail(answer, "sha256_first", "the image shown is not the one in the stimuli's manifest");
-    if (row.sha256Second != (aFirst ? pair->image("b") : pair->image("a")).image.sha256)
-        fail(answer, "sha256_second", "the image shown is not the one in the stimuli's manifest");
+    const bool a = row.sha256A.text() == pair->image("a").image.sha256;
+    const bool b = row.sha256B.text() == pair->image("b").image.sha256;
+    const char* why = "the image shown is not the one in the stimuli's manifest";
+    if (!(row.aFirst ? a : b))
+        fail(answer, "sha256_first", why);
+    if (!(row.aFirst ? b : a))
+        fail(answer, "sha256_second", why);
+}
+
+// All by which rows of one condition must be alike, and how to find the tally of the last such one.
+using Alike = std::array<Symbol, 8>;
+Alike alikeOf(const Vote& row) {
+    return {row.conditionId, row.level,      row.scene,   row.hypothesis,
+            row.techniqueA,  row.techniqueB, row.sha256A, row.sha256B};
 }
 
 constexpr std::array<std::string_view, 8> countColumns = {
@@ -169,11 +179,16 @@ std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest
         }
     else
         tallies = emptyTallies(answers, order);
+    std::unordered_map<std::uint32_t, std::pair<Alike, Tally*>> checked; // by condition
     for (const Answer& answer : answers) {
-        Votes& votes = tallyOf(answer, tallies).votes;
-        if (stimuli)
-            checkImages(answer, *stimuli);
-        ++(answer.row.choseB ? votes.b : votes.a);
+        auto& [alike, tally] = checked[answer.row.conditionId.number()];
+        if (!tally || alike != alikeOf(answer.row)) {
+            tally = &tallyOf(answer, tallies);
+            if (stimuli)
+                checkImages(answer, *stimuli);
+            alike = alikeOf(answer.row);
+        }
+        ++(answer.row.choseB ? tally->votes.b : tally->votes.a);
     }
     groupByLevel(tallies);
     return tallies;

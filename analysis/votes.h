@@ -1,8 +1,9 @@
 #pragma once
 
 #include "analysis/answers.h"
-#include "analysis/frequencies.h"
 #include "protocols/reader/manifest.h"
+
+#include "inference/counts.h"
 
 #include <filesystem>
 #include <string>

@@ -5,79 +5,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
+#include <cstring>
 
 namespace obscura {
 
 namespace {
-
-class Splitter {
-  public:
-    explicit Splitter(std::string_view text) : text_(text) {
-        if (text_.starts_with("\xEF\xBB\xBF"))
-            text_.remove_prefix(3);
-    }
-
-    bool atEnd() const { return at_ == text_.size(); }
-
-    CsvRecord record() {
-        CsvRecord record;
-        record.line = line_;
-        const std::size_t start = at_;
-        do
-            record.fault = cell(record.cells.emplace_back());
-        while (record.fault.empty() && take(","));
-        record.ended = take("\n") || take("\r\n");
-        if (record.fault.empty() && !record.ended && !atEnd())
-            record.fault = "a closing quote is followed by neither a comma nor the line's end";
-        if (!record.fault.empty())
-            record.ended = endFaulty(start);
-        line_ += static_cast<int>(std::count(text_.begin() + start, text_.begin() + at_, '\n'));
-        return record;
-    }
-
-  private:
-    bool sees(std::string_view next) const { return text_.substr(at_).starts_with(next); }
-
-    bool take(std::string_view next) {
-        if (!sees(next))
-            return false;
-        at_ += next.size();
-        return true;
-    }
-
-    // Both return a fault, or "".
-    std::string cell(std::string& value) {
-        if (take("\""))
-            return quotedCell(value);
-        for (; !atEnd() && !sees(",") && !sees("\n") && !sees("\r\n"); ++at_) {
-            if (sees("\""))
-                return "a quote stands inside a cell that does not begin with one";
-            value += text_[at_];
-        }
-        return {};
-    }
-
-    std::string quotedCell(std::string& value) {
-        for (; !atEnd(); ++at_) {
-            if (take("\"") && !sees("\""))
-                return {};
-            value += text_[at_];
-        }
-        return "a quote is opened and never closed";
-    }
-
-    // Goes on after the first line of the record; false when that line has no end.
-    bool endFaulty(std::size_t start) {
-        const std::size_t end = text_.find('\n', start);
-        at_ = end == text_.npos ? text_.size() : end + 1;
-        return end != text_.npos;
-    }
-
-    std::string_view text_;
-    std::size_t at_ = 0;
-    int line_ = 1;
-};
 
 template <typename T>
 bool readNumber(std::string_view cell, T& number) {
@@ -127,10 +61,146 @@ void checkIsCsv(std::string_view text, const std::string& file) {
                                     separator == ';' ? "semicolons" : "tabs", saveAgain));
 }
 
+CsvReader::CsvReader(std::string_view text) : text_(text), whole_(true) { skipMark(); }
+
+CsvReader::CsvReader(const std::filesystem::path& path)
+    : path_(path.string()), file_(std::fopen(path.c_str(), "rb")) {
+    if (!file_)
+        throw Error({path_, 0, 0, {}}, fmt::format("cannot be read: {}", std::strerror(errno)));
+    fill();
+    checkIsCsv(text_, path_);
+    skipMark();
+}
+
+void CsvReader::Close::operator()(std::FILE* file) const { std::fclose(file); }
+
+void CsvReader::skipMark() {
+    if (text_.starts_with("\xEF\xBB\xBF"))
+        at_ = 3;
+}
+
+// Reads on, keeping what has not yet been given out.
+void CsvReader::fill() {
+    constexpr std::size_t block = std::size_t{1} << 16;
+    buffer_.erase(0, at_);
+    at_ = 0;
+    const std::size_t had = buffer_.size(), wanted = std::max(block, had);
+    buffer_.resize(had + wanted);
+    const std::size_t count = std::fread(buffer_.data() + had, 1, wanted, file_.get());
+    if (count < wanted && std::ferror(file_.get()))
+        throw Error({path_, 0, 0, {}}, fmt::format("cannot be read: {}", std::strerror(errno)));
+    buffer_.resize(had + count);
+    text_ = buffer_;
+    whole_ = count < wanted;
+}
+
+bool CsvReader::next(CsvRecord& record) {
+    if (at_ == text_.size() && !whole_)
+        fill();
+    if (at_ == text_.size())
+        return false;
+    for (;;) {
+        const std::size_t start = at_;
+        touched_ = quoted_ = false;
+        split(record);
+        if (!touched_ || whole_) {
+            line_ +=
+                quoted_
+                    ? static_cast<int>(std::count(text_.begin() + start, text_.begin() + at_, '\n'))
+                    : record.ended;
+            return true;
+        }
+        at_ = start; // it may go on beyond what has been read
+        fill();
+    }
+}
+
+void CsvReader::split(CsvRecord& record) {
+    const std::size_t start = at_;
+    record.line = line_;
+    record.fault.clear();
+    std::size_t cells = 0;
+    do {
+        if (cells == record.cells.size())
+            record.cells.emplace_back();
+        record.cells[cells].clear();
+        record.fault = cell(record.cells[cells++]);
+    } while (record.fault.empty() && take(","));
+    record.cells.resize(cells);
+    record.ended = take("\n") || take("\r\n");
+    if (record.fault.empty() && !record.ended && !atEnd())
+        record.fault = "a closing quote is followed by neither a comma nor the line's end";
+    if (!record.fault.empty())
+        record.ended = endFaulty(start);
+}
+
+bool CsvReader::atEnd() {
+    const bool end = at_ == text_.size();
+    touched_ |= end;
+    return end;
+}
+
+bool CsvReader::take(std::string_view next) {
+    const std::string_view rest = text_.substr(at_, next.size());
+    touched_ |= rest.size() < next.size();
+    if (rest != next)
+        return false;
+    at_ += next.size();
+    return true;
+}
+
+// Both return a fault, or "".
+std::string CsvReader::cell(std::string& value) {
+    if (take("\""))
+        return quotedCell(value);
+    const auto isEnd = [&](std::size_t at) {
+        const char c = text_[at];
+        return c == ',' || c == '\n' || c == '"' ||
+               (c == '\r' && (at + 1 == text_.size() || text_[at + 1] == '\n'));
+    };
+    for (;;) {
+        std::size_t end = at_;
+        while (end < text_.size() && !isEnd(end))
+            ++end;
+        value.append(text_, at_, end - at_);
+        at_ = end;
+        if (atEnd() || text_[at_] != '\r' || at_ + 1 < text_.size())
+            break;
+        touched_ = true; // a return at the very end: of a line, or of a cell
+        value += text_[at_++];
+    }
+    return !atEnd() && text_[at_] == '"'
+               ? "a quote stands inside a cell that does not begin with one"
+               : "";
+}
+
+std::string CsvReader::quotedCell(std::string& value) {
+    quoted_ = true;
+    while (!atEnd()) {
+        const std::size_t quote = std::min(text_.find('"', at_), text_.size());
+        value.append(text_, at_, quote - at_);
+        at_ = quote;
+        if (take("\"")) {
+            if (!take("\""))
+                return {};
+            value += '"';
+        }
+    }
+    return "a quote is opened and never closed";
+}
+
+// Goes on after the first line of the record; false when that line has no end.
+bool CsvReader::endFaulty(std::size_t start) {
+    const std::size_t end = text_.find('\n', start);
+    at_ = end == text_.npos ? text_.size() : end + 1;
+    return end != text_.npos;
+}
+
 std::vector<CsvRecord> splitCsv(std::string_view text) {
     std::vector<CsvRecord> records;
-    for (Splitter splitter(text); !splitter.atEnd();)
-        records.push_back(splitter.record());
+    CsvReader reader(text);
+    for (CsvRecord record; reader.next(record);)
+        records.push_back(record);
     return records;
 }
 

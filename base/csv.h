@@ -1,6 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,9 +18,45 @@ struct CsvRecord {
     std::string fault; // why it cannot be split into cells; "" when it can
 };
 
-// Every record, the header's too. A faulty one ends with its first line, so that a stray quote
-// cannot swallow the records below it. Lines may end in CR LF, and the text may begin with a byte
-// order mark: spreadsheets write both.
+// A CSV text record by record, the header's too. A faulty one ends with its first line, so that a
+// stray quote cannot swallow the records below it. Lines may end in CR LF, and the text may begin
+// with a byte order mark: spreadsheets write both.
+class CsvReader {
+  public:
+    explicit CsvReader(std::string_view text); // which must outlive the reader
+    // A file, of which no more than a few records are in memory at any time. An Error when it
+    // cannot be read or is no CSV (checkIsCsv).
+    explicit CsvReader(const std::filesystem::path& path);
+
+    // The next record, in the memory of the one before; false at the end.
+    bool next(CsvRecord& record);
+
+  private:
+    struct Close {
+        void operator()(std::FILE* file) const;
+    };
+
+    void skipMark();
+    void fill();
+    void split(CsvRecord& record);
+    bool atEnd();
+    bool take(std::string_view next);
+    std::string cell(std::string& value);
+    std::string quotedCell(std::string& value);
+    bool endFaulty(std::size_t start);
+
+    std::string path_;
+    std::unique_ptr<std::FILE, Close> file_;
+    std::string buffer_; // of the file
+    std::string_view text_;
+    std::size_t at_ = 0;
+    int line_ = 1;
+    bool whole_ = false;   // the text goes to its end
+    bool touched_ = false; // the record could not be told without looking beyond the text
+    bool quoted_ = false;
+};
+
+// All of them.
 std::vector<CsvRecord> splitCsv(std::string_view text);
 
 // Refuses a text that is another format under the name of CSV (compressed, a spreadsheet's own,

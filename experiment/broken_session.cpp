@@ -35,6 +35,7 @@ struct JournalTrial {
 struct Journal {
     int slot = 0, version = 0;
     std::vector<JournalTrial> trials; // in order; the nth has the number n
+    std::set<std::string> pages;      // that were ended
     std::string ended;                // the last reason; "" for none
     std::string time;                 // of the last entry
 };
@@ -71,6 +72,9 @@ void add(Journal& journal, const json& entry) {
         JournalTrial& trial = trialOf(journal, entry);
         trial.answers = entry.at("answers");
         trial.interrupted = anyInterrupted(entry.at("phases"));
+    } else if (event == "page_finished") {
+        journal.pages.insert(
+            pageKey(entry.at("pages").get<std::string>(), entry.at("page").get<std::string>()));
     } else if (event == "session_resumed") {
         journal.ended.clear();
     } else if (event == "session_ended") {
@@ -177,12 +181,18 @@ void checkCanGoOn(const Study& study, const fs::path& path, const Journal& journ
                                 journal.version, knownVersion));
     if (journal.ended == "completed")
         throw Error("it was completed");
+    if (journal.ended.starts_with(endedByAnswer))
+        throw Error("it was " + journal.ended);
     checkAge(ageOf(journal.time, path), study.protocol.ordering.resumeMinutes, journal.time);
     if (journal.slot < 1 || journal.slot > highestSlot)
         throw Error(fmt::format("its slot is {}", journal.slot));
 }
 
 } // namespace
+
+std::string pageKey(std::string_view kind, const std::string& page) {
+    return std::string(kind) + "/" + page;
+}
 
 std::string endOf(const fs::path& journal) { return readJournal(journal).ended; }
 
@@ -194,7 +204,7 @@ BrokenSession brokenSession(const Study& study, const DataFolder& folder,
         throw Error(
             fmt::format("{} cannot be gone on with: it has no journal ({})", whose, path.string()));
     const Journal journal = readJournal(path);
-    BrokenSession broken{session, journal.slot, {}, 0, {}};
+    BrokenSession broken{session, journal.slot, {}, 0, {}, journal.pages};
     try {
         checkCanGoOn(study, path, journal);
         replay(study, journal, broken);

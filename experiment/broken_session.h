@@ -4,7 +4,9 @@
 #include "experiment/selection.h"
 #include "experiment/study.h"
 
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -17,7 +19,13 @@ struct BrokenSession {
     std::vector<PastTrial> history;    // what next() led to; a half-seen trial is interrupted
     int trials = 0;                    // that began, and so have a number
     std::vector<std::string> halfSeen; // conditions of those that began and were not answered
+    std::set<std::string> pages; // before and after the trials, that were ended: "before/consent"
 };
+
+std::string pageKey(std::string_view kind, const std::string& page); // "before/consent"
+
+// With which the reason of a session begins that is not to be gone on with.
+constexpr std::string_view endedByAnswer = "ended by the answer to ";
 
 // Replays the session's journal: whatever the participant has seen is not shown again. An Error
 // says why nobody can go on with it: there is none, it was completed, it broke off longer ago than

@@ -61,7 +61,8 @@ int playSlot(const Protocol& protocol, int slot) {
         if (trials > trial.count)
             throw Error(fmt::format("slot {} has more than the {} trials that it should have", slot,
                                     trial.count));
-        TrialMachine machine(phases, static_cast<int>(trial.order.size()), observer.refresh().hz);
+        TrialMachine machine(phases, static_cast<int>(trial.order.size()), observer.refresh().hz,
+                             protocol.keys);
         observer.prepare(trial);
         play(machine, observer, [] {});
         history.push_back(remember(phases, trial, machine.record()));
@@ -72,8 +73,10 @@ int playSlot(const Protocol& protocol, int slot) {
 } // namespace
 
 std::string checkRuns(const Protocol& protocol, int width, int height) {
-    checkShowable(protocol.texts);
-    Screens(protocol, width, height, "").check();
+    for (const Texts* texts : protocol.languages()) {
+        checkShowable(*texts);
+        Screens(protocol, *texts, width, height, "").check();
+    }
     const int slots = protocol.ordering.participants;
     int fewest = 0, most = 0;
     for (int slot = 1; slot <= slots; ++slot) {

@@ -117,6 +117,7 @@ void DataFolder::prepare() const {
         writeFile(path, description(root_.filename().string(), title_));
     if (!fs::exists(root_ / "README.md"))
         writeFile(root_ / "README.md", readme(title_));
+    writeNewFile(root_ / ".psychdsignore", "sessions/\n"); // which is no part of Psych-DS
     makeFolders(root_ / "data");
     makeFolders(root_ / "sessions");
 }

@@ -13,6 +13,7 @@ namespace obscura {
 //
 //   <data>/<study>/dataset_description.json   what the columns mean
 //   <data>/<study>/README.md
+//   <data>/<study>/.psychdsignore             sessions/, which Psych-DS does not know
 //   <data>/<study>/data/study-<study>_subject-<id>_session-<n>_data.csv   one row per trial
 //   <data>/<study>/sessions/study-..._phases.csv      one row per phase of a trial
 //   <data>/<study>/sessions/study-..._answers.csv     one row per question
@@ -28,9 +29,9 @@ class DataFolder {
     DataFolder(const std::filesystem::path& data, const Protocol& protocol,
                bool rehearsals = false);
 
-    // Makes the folders, the description and the README where they are missing; adds to a
-    // description of an earlier version the columns that came later. An Error when a description is
-    // there that speaks of other columns.
+    // Makes the folders, the description, the README and .psychdsignore where they are missing;
+    // adds to a description of an earlier version the columns that came later. An Error when a
+    // description is there that speaks of other columns.
     void prepare() const;
 
     const std::filesystem::path& path() const { return root_; }

@@ -23,7 +23,8 @@ constexpr int patchShare = 12; // of the screen's height
 } // namespace
 
 Display::Display(const DisplayOptions& options, const Curtain& curtain)
-    : priority_(askForPriority()), window_(options.window), grey_(options.grey),
+    : receiver_(options.trigger), trigger_(receiver_.empty() ? nullptr : openTrigger(receiver_)),
+      priority_(askForPriority()), window_(options.window), grey_(options.grey),
       photodiode_(options.photodiode), windowed_(options.window.windowed.has_value()) {
     keepPriorityFromNewThreads();
     const Image8 image = curtain(window_.width(), window_.height());
@@ -121,6 +122,24 @@ void Display::describe(nlohmann::ordered_json& sidecar) const {
         {"scheduling", priority_.scheduling},
         {"memory", priority_.memory},
     };
+    describeMarks(sidecar);
+}
+
+void Display::mark(double onset, int trial, int phase, std::string_view name) {
+    if (trigger_)
+        trigger_->send({onset, window_.now() - onset, trial, phase, name});
+}
+
+void Display::countMarks() {
+    if (trigger_)
+        trigger_->restart();
+}
+
+void Display::describeMarks(nlohmann::ordered_json& sidecar) const {
+    if (!trigger_)
+        return;
+    sidecar["trigger"] = {{"receiver", receiver_}};
+    sidecar["trigger"].update(trigger_->counts());
 }
 
 void Display::warmUp(const gl::Picture& picture) {

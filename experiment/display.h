@@ -4,15 +4,18 @@
 #include "experiment/timing_check.h"
 #include "experiment/timing_priority.h"
 #include "experiment/timing_ticks.h"
+#include "experiment/trigger.h"
 #include "gl/window.h"
 #include "image/image.h"
 
 #include <nlohmann/json_fwd.hpp>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -31,6 +34,7 @@ struct DisplayOptions {
     int grey = 128;          // of the surround, a code value
     bool photodiode = false; // a square in the lower left corner, white while a stimulus is on view
                              // and black otherwise, for a light sensor
+    std::string trigger = {}; // who is told of each onset, as openTrigger() takes it; "": nobody
 };
 
 // The screen: shows one picture at a time, 1:1 in its middle on the surround grey, and says when it
@@ -47,7 +51,13 @@ class Display {
     // What the check found, in a line.
     std::string inWords() const;
     void describe(nlohmann::ordered_json& sidecar) const;
+    // Tells the trigger's receiver that the phase came on at `onset`; both are counted from 1.
+    void mark(double onset, int trial, int phase, std::string_view name);
+    // From now on marks are counted anew; and how it went with those so far.
+    void countMarks();
+    void describeMarks(nlohmann::ordered_json& sidecar) const;
     gl::Window& window() { return window_; }
+    const gl::Monitor& monitor() const { return window_.monitor(); }
 
     // Draws without showing, so that the first showing is not slower than others. An Error when
     // the picture is larger than the screen: nothing is ever scaled.
@@ -66,6 +76,8 @@ class Display {
     void draw(std::span<const Placed> pictures, int grey, bool stimulus);
     Placed centred(const gl::Picture& picture) const;
 
+    std::string receiver_;
+    std::unique_ptr<Trigger> trigger_; // opened first: without its receiver nothing begins
     Priority priority_; // asked for before the window is made, for the driver's threads inherit it
     gl::Window window_;
     int grey_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace obscura {
 
@@ -54,8 +55,12 @@ int digitOf(gl::Key key) {
     return -1;
 }
 
-Form::Form(const std::vector<Question>& questions, int images)
-    : questions_(questions), entries_(questions.size()), images_(images),
+bool isOfTwo(const Question& question) {
+    return hasOptions(question) && question.options.size() == 2;
+}
+
+Form::Form(const std::vector<Question>& questions, int images, Keys keys)
+    : questions_(questions), entries_(questions.size()), images_(images), keys_(std::move(keys)),
       alone_(questions.size() == 1 && hasOptions(questions[0])) {}
 
 int Form::optionsOf(const Question& question) const {
@@ -91,7 +96,7 @@ Form::Effect Form::pressed(gl::Key key, double seconds) {
     const bool enter = key == gl::Key::enter || key == gl::Key::keypadEnter;
     if (enter && !alone_)
         return next();
-    if (key == gl::Key::space && !alone_ && !typing())
+    if (keys_.isGo(static_cast<int>(key)) && !alone_ && !typing())
         return complete() ? Effect::finished : Effect::none;
     if (!alone_ && (key == gl::Key::tab || key == gl::Key::down))
         return move(1);
@@ -105,10 +110,14 @@ Form::Effect Form::pressed(gl::Key key, double seconds) {
         return pressSlider(key, seconds);
     if (typing()) // digits arrive as text
         return Effect::none;
-    const bool two = hasOptions(question()) && question().options.size() == 2;
-    if (two && (key == gl::Key::left || key == gl::Key::right))
-        return choose(key == gl::Key::left ? 1 : 2, seconds);
+    if (key == gl::Key::backspace && question().optional && entry().option > 0)
+        return entry().option = 0, Effect::changed;
+    if (isOfTwo(question()))
+        if (const int option = keys_.optionOf(static_cast<int>(key)))
+            return choose(option, seconds);
     const int digit = digitOf(key);
+    if (isOfTwo(question()) && digit < 3) // others than the study's keys
+        return Effect::none;
     return choose(digit == 0 ? 10 : digit, seconds);
 }
 

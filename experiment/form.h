@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/input.h"
+#include "protocols/reader/keys.h"
 #include "protocols/reader/trial.h"
 
 #include <optional>
@@ -19,9 +20,10 @@ struct Answer {
 };
 
 // The questions of one page and how far they are answered. A question that stands alone and has
-// options is answered by one key or click. Otherwise one question has the focus: Tab, Enter, Up and
-// Down move it, keys give it a value, and Enter on the last, Space, or a click on the page's button
-// ends the page once everything is answered that must be.
+// options is answered by one key or click, of two options by the study's keys. Otherwise one
+// question has the focus: Tab, Enter, Up and Down move it, keys give it a value, and Enter on the
+// last, the key that goes on, or a click on the page's button ends the page once everything is
+// answered that must be.
 class Form {
   public:
     enum class Effect { none, changed, finished };
@@ -36,7 +38,7 @@ class Form {
     };
 
     // `images`: how many the trial shows, which a ranking ranks.
-    Form(const std::vector<Question>& questions, int images);
+    Form(const std::vector<Question>& questions, int images, Keys keys = {});
 
     Effect press(gl::Key key, double seconds);
     Effect type(std::uint32_t symbol, double seconds); // a Unicode code point
@@ -55,6 +57,7 @@ class Form {
     std::vector<Answer> answers() const;
 
     int optionsOf(const Question& question) const; // "unsure" among them
+    const Keys& keys() const { return keys_; }
 
   private:
     Effect noted(Effect effect);
@@ -73,10 +76,14 @@ class Form {
     std::vector<Question> questions_;
     std::vector<Entry> entries_;
     int images_;
+    Keys keys_;
     int focus_ = 0;
     bool alone_;
     int changes_ = 0;
 };
+
+// Whether the study's keys for one of two answer it; otherwise options have the digits.
+bool isOfTwo(const Question& question);
 
 // The number that a key stands for: of the digits 0 ... 9, also on the keypad; -1 for none.
 int digitOf(gl::Key key);

@@ -4,17 +4,22 @@
 #include "base/progress.h"
 #include "base/version.h"
 #include "experiment/broken_session.h"
+#include "experiment/calibrate.h"
+#include "experiment/card.h"
 #include "experiment/check.h"
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
+#include "experiment/language.h"
 #include "experiment/ledger.h"
 #include "experiment/ledger_command.h"
 #include "experiment/presenter.h"
 #include "experiment/preview.h"
 #include "experiment/recorder.h"
+#include "experiment/screen_file.h"
 #include "experiment/session.h"
 #include "experiment/signals.h"
 #include "experiment/simulated.h"
+#include "experiment/start_facts.h"
 #include "experiment/timing_command.h"
 #include "experiment/visual.h"
 
@@ -37,9 +42,10 @@ namespace {
 
 struct Arguments {
     fs::path protocol, stimuli, data = "participant_data";
-    std::string participant;
+    std::string participant, language;
     int session = 1;
     int monitor = 1;
+    std::string screenMm;
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
     bool simulate = false, visual = false, resume = false;
@@ -50,6 +56,7 @@ struct Arguments {
     std::string size = "1920x1080"; // of a screen that nobody looks at
     LedgerCommand ledger;
     bool photodiode = false;
+    std::string trigger;
     TimingArguments timing;
 };
 
@@ -65,6 +72,25 @@ CLI::Option* declareScreen(CLI::App& app, Arguments& arguments) {
                     "Rehearse in a window, of 1280x800 unless a size is given")
         ->type_name("WxH")
         ->expected(0, 1);
+}
+
+void declareTrigger(CLI::App& app, Arguments& arguments) {
+    app.add_option("--trigger", arguments.trigger,
+                   "Tell a receiver of each onset in a trial: tcp://HOST:PORT, udp://HOST:PORT, "
+                   "serial:/dev/NAME, or lsl")
+        ->type_name("WHERE");
+}
+
+void declareTools(CLI::App& app, Arguments& arguments) {
+    for (const auto& [name, description] :
+         {std::pair("card", "Measure the size of a screen's pixels with a card held to it"),
+          std::pair("calibrate", "Measure the curve of a screen by eye and with a photometer")}) {
+        CLI::App* tool = app.add_subcommand(name, description);
+        tool->add_option("--data", arguments.data, "The data folder, which keeps it")
+            ->type_name("DIR")
+            ->capture_default_str();
+        declareScreen(*tool, arguments);
+    }
 }
 
 void declareTiming(CLI::App& app, Arguments& arguments) {
@@ -84,6 +110,7 @@ void declareTiming(CLI::App& app, Arguments& arguments) {
                      "Also write timing.json, and masks.csv with a line for each mask")
         ->type_name("DIR");
     declareScreen(*timing, arguments);
+    declareTrigger(*timing, arguments);
 }
 
 void declare(CLI::App& app, Arguments& arguments) {
@@ -97,6 +124,10 @@ void declare(CLI::App& app, Arguments& arguments) {
     app.add_option("--participant", arguments.participant,
                    "Pseudonym, letters and digits; asked for on the screen when not given")
         ->type_name("ID");
+    app.add_option("--language", arguments.language,
+                   "The participant's, a tag such as en or zh-Hans; chosen on the screen when not "
+                   "given and the study has several")
+        ->type_name("TAG");
     app.add_option("--session", arguments.session, "Which session of this participant")
         ->type_name("N")
         ->check(CLI::Range(1, 99))
@@ -106,7 +137,12 @@ void declare(CLI::App& app, Arguments& arguments) {
                      "Go on with the participant's session, which broke off: no trial is shown "
                      "twice. Without --participant, the screen asks");
     CLI::Option* windowed = declareScreen(app, arguments);
+    declareTrigger(app, arguments);
     app.add_flag("--list-monitors", arguments.listMonitors, "Name the monitors, and end");
+    app.add_option("--screen-mm", arguments.screenMm,
+                   "Width and height of what the screen shows, in millimetres; otherwise what "
+                   "obscura-experiment card has measured")
+        ->type_name("WxH");
     CLI::Option* rehearse =
         app.add_flag("--rehearse", arguments.rehearse,
                      "Try the study out: takes no slot, and its rows go to rehearsals/ in the data "
@@ -149,6 +185,7 @@ void declare(CLI::App& app, Arguments& arguments) {
 
     declareLedger(app, arguments.ledger);
     declareTiming(app, arguments);
+    declareTools(app, arguments);
     app.footer(
         "Keys: Space goes on; 1 and 2, the arrows or the mouse choose; Escape asks whether to "
         "end.\n"
@@ -186,10 +223,13 @@ gl::WindowOptions windowOptions(const Arguments& arguments) {
 }
 
 DisplayOptions displayOptions(const Arguments& arguments, const Study& study) {
-    return {windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode};
+    return {windowOptions(arguments), study.protocol.trial.grey, arguments.photodiode,
+            arguments.trigger};
 }
 
 int simulate(const Arguments& arguments, const Study& study) {
+    if (!arguments.trigger.empty() && !arguments.visual)
+        throw Error("--trigger: without a window nothing comes on; give --visual too");
     verifyStimuli(study.manifest);
     const Protocol& protocol = study.protocol;
     const DataFolder folder(arguments.data, protocol);
@@ -219,9 +259,9 @@ int simulate(const Arguments& arguments, const Study& study) {
     return 0;
 }
 
-// What stands above every page of text, and on stderr: the session is no measurement. An Error on
-// a display that no data should be collected on.
-std::string warning(const Arguments& arguments, const Display& display) {
+// Which text stands above every page, and on stderr: the session is no measurement; or none. An
+// Error on a display that no data should be collected on.
+std::string Texts::*warning(const Arguments& arguments, const Display& display) {
     fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
     const Refresh& refresh = display.refresh();
     const std::string objection = display.objection();
@@ -237,9 +277,9 @@ std::string warning(const Arguments& arguments, const Display& display) {
                                                    refresh.doubt)
                                      : objection);
         if (!arguments.allowUntimed)
-            return "Untimed display: not suitable for data collection";
+            return &Texts::untimed;
     }
-    return arguments.rehearse ? "Rehearsal: answers do not count" : "";
+    return arguments.rehearse ? &Texts::rehearsal : nullptr;
 }
 
 // Of sessions whose process has died: what their journals have is written into their tables, one
@@ -293,34 +333,56 @@ void checkParticipant(const Arguments& arguments, const Study& study, const Data
     throw Error(fmt::format("--participant {}: {}", arguments.participant, problem));
 }
 
-int present(const Arguments& arguments, const Study& study) {
-    const DataFolder folder(arguments.data, study.protocol, arguments.rehearse);
-    const auto sessionOf = [&](const std::string& id) {
-        SessionId session{id, arguments.session, false, arguments.rehearse};
-        while (session.rehearsal && fs::exists(folder.journal(session)))
-            ++session.number; // people rehearse more than once
-        return session;
-    };
-    if (arguments.rehearse) {
-        fmt::print(stderr,
-                   "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
-    } else {
-        checkFolder(folder, study);
-        mendOrphans(folder);
-    }
-    if (!arguments.participant.empty())
-        checkParticipant(arguments, study, folder, sessionOf(arguments.participant));
+SessionId sessionOf(const Arguments& arguments, const DataFolder& folder, const std::string& id) {
+    SessionId session{id, arguments.session, false, arguments.rehearse};
+    while (session.rehearsal && fs::exists(folder.journal(session)))
+        ++session.number; // people rehearse more than once
+    return session;
+}
 
+// Says how the images are seen. An Error where that is not as the study wants it.
+Viewing viewingOn(const Arguments& arguments, const Study& study, const gl::Monitor& monitor) {
+    const Manifest& images = study.manifest;
+    Viewing viewing{study.protocol.screen, {}, images.width, images.height};
+    viewing.size = arguments.screenMm.empty()
+                       ? cardSize(arguments.data, monitor)
+                       : screenSizeOf(arguments.screenMm, monitor.width, monitor.height);
+    if (const std::string words = inWords(viewing); !words.empty())
+        fmt::print(stderr, "obscura-experiment: viewing: {}\n", words);
+    if (const std::string wrong = objectionTo(viewing); !wrong.empty()) {
+        if (!arguments.rehearse)
+            throw Error(wrong + " (images are never scaled)");
+        fmt::print(stderr, "obscura-experiment: no session but a rehearsal: {}\n", wrong);
+    }
+    return viewing;
+}
+
+// Nothing when the experimenter wants another monitor.
+std::optional<int> presentOn(const Arguments& arguments, Study& study, const DataFolder& folder,
+                             int monitors) {
     Display display(displayOptions(arguments, study), curtain(study));
-    Presenter presenter(display, study, warning(arguments, display));
-    const std::optional<std::string> id = arguments.participant.empty()
-                                              ? presenter.askId([&](const std::string& typed) {
-                                                    return judge(study, folder, sessionOf(typed));
-                                                })
-                                              : std::optional(arguments.participant);
-    if (!id)
+    const Viewing viewing = viewingOn(arguments, study, display.monitor());
+    std::string Texts::*const above = warning(arguments, display);
+    const bool knows = arguments.resume && !arguments.participant.empty();
+    if (!settleLanguage(study, display, above ? study.protocol.texts.*above : "",
+                        knows ? folder.sidecar(sessionOf(arguments, folder, arguments.participant))
+                              : ""))
         return 0;
-    const SessionId session = sessionOf(*id);
+    Presenter presenter(display, study, above ? study.texts().*above : "");
+    presenter.seenAs(viewing, calibrationOf(arguments.data, display.monitor()));
+    Presenter::Start start{arguments.participant};
+    if (arguments.participant.empty())
+        start =
+            presenter.askId(startFacts(study, folder, arguments.rehearse, display, viewing,
+                                       arguments.monitor, monitors),
+                            [&](const std::string& typed) {
+                                return judge(study, folder, sessionOf(arguments, folder, typed));
+                            });
+    if (start.otherMonitor)
+        return std::nullopt;
+    if (!start.id)
+        return 0;
+    const SessionId session = sessionOf(arguments, folder, *start.id);
     const bool completed =
         objection(folder, session).empty()
             ? runSession(study, folder, session, presenter)
@@ -330,6 +392,24 @@ int present(const Arguments& arguments, const Study& study) {
                : arguments.rehearse ? "ended before the last trial"
                                     : "ended before the last trial; its slot has been given back");
     return 0;
+}
+
+int present(Arguments arguments, Study& study) {
+    const DataFolder folder(arguments.data, study.protocol, arguments.rehearse);
+    if (arguments.rehearse) {
+        fmt::print(stderr,
+                   "obscura-experiment: a rehearsal: it takes no slot, and does not count\n");
+    } else {
+        checkFolder(folder, study);
+        mendOrphans(folder);
+    }
+    if (!arguments.participant.empty())
+        checkParticipant(arguments, study, folder,
+                         sessionOf(arguments, folder, arguments.participant));
+    for (const int monitors = static_cast<int>(gl::monitors().size());;
+         arguments.monitor = arguments.monitor % monitors + 1)
+        if (const std::optional<int> status = presentOn(arguments, study, folder, monitors))
+            return *status;
 }
 
 int check(const Arguments& arguments) {
@@ -351,7 +431,8 @@ int preview(const Arguments& arguments, const Study& study) {
 }
 
 int timing(const Arguments& arguments) {
-    return holdAndReport({windowOptions(arguments), 128, arguments.photodiode}, arguments.timing);
+    return holdAndReport({windowOptions(arguments), 128, arguments.photodiode, arguments.trigger},
+                         arguments.timing);
 }
 
 int run(int argc, char** argv) {
@@ -362,8 +443,9 @@ int run(int argc, char** argv) {
     declare(app, arguments);
     CLI11_PARSE(app, argc, argv);
     arguments.simulate = app.count("--simulate") > 0;
-    arguments.windowed =
-        app.count("--windowed") + app.get_subcommand("timing")->count("--windowed") > 0;
+    for (const CLI::App* each : {&app, app.get_subcommand("timing"), app.get_subcommand("card"),
+                                 app.get_subcommand("calibrate")})
+        arguments.windowed |= each->count("--windowed") > 0;
     arguments.rehearse |= arguments.windowed;
 
     if (arguments.listMonitors)
@@ -371,15 +453,24 @@ int run(int argc, char** argv) {
     if (app.got_subcommand("ledger"))
         return editLedger(arguments.ledger);
     heedSignals();
-    const bool times = app.got_subcommand("timing");
-    if (!times && (arguments.protocol.empty() || (arguments.stimuli.empty() && !arguments.check)))
+    const bool times = app.got_subcommand("timing"),
+               measures = app.got_subcommand("card") || app.got_subcommand("calibrate");
+    if (!times && !measures &&
+        (arguments.protocol.empty() || (arguments.stimuli.empty() && !arguments.check)))
         throw Error("expected --protocol FILE and --stimuli DIR; --help explains");
     try {
         if (times)
             return timing(arguments);
+        if (measures)
+            return (app.got_subcommand("card") ? measureCard : calibrate)(windowOptions(arguments),
+                                                                          arguments.data)
+                       ? 0
+                       : 1;
         if (arguments.check)
             return check(arguments);
-        const Study study = openStudy(arguments.protocol, arguments.stimuli);
+        Study study = openStudy(arguments.protocol, arguments.stimuli);
+        if (!arguments.language.empty())
+            study.language = languageNamed(study.protocol, arguments.language);
         if (!arguments.preview.empty())
             return preview(arguments, study);
         return arguments.simulate ? simulate(arguments, study) : present(arguments, study);

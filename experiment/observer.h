@@ -30,9 +30,13 @@ class Observer {
 
     virtual Refresh refresh() const = 0;
     virtual void describe(nlohmann::ordered_json& sidecar) const = 0; // display, or model
+    // What of it is known only at the end.
+    virtual void describeOutcome(nlohmann::ordered_json&) const {}
 
     virtual bool instruct() = 0; // false when the person leaves instead of beginning
     virtual void prepare(const Upcoming& trial) = 0;
+    // The same for a page before or after the trials, which is then screen 0.
+    virtual void preparePage(const Phase& page) = 0;
     // Shows the screen that the prepared trial wants; the time at which it came on.
     virtual double show(const TrialMachine& trial) = 0;
     // What the person has done since; with `wait`, sleeps until there is something. Valid until the
@@ -40,6 +44,7 @@ class Observer {
     virtual const std::vector<Event>& events(bool wait) = 0;
     virtual bool rest() = 0; // between trials; false when the person leaves instead of going on
     virtual void thank() = 0;
+    virtual void decline() = 0; // says that an answer has ended the session before its trials
 };
 
 } // namespace obscura

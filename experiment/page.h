@@ -10,16 +10,17 @@ namespace obscura {
 // `text` are kept.
 struct Page {
     struct Option {
-        std::string key;     // drawn as a key cap: "1", "Space"
-        std::string label;   // beside it
-        bool chosen = false; // drawn the other way round, in a thick frame
+        std::string key;           // drawn as a key cap: "1", "Space"
+        std::string label;         // beside it
+        bool chosen = false;       // drawn the other way round, in a thick frame
+        std::string language = {}; // of the label, where it is not the page's
     };
     struct Field {
         std::string typed; // so far
         bool focus = true; // shows a caret
     };
     struct Slider {
-        std::optional<double> share; // of its way from left to right, 0 ... 1; none: not yet set
+        std::optional<double> share; // of its way from low to high, 0 ... 1; none: not yet set
         std::string low, high;       // what stands at its ends
         std::string value;           // what stands above its knob
     };
@@ -28,8 +29,13 @@ struct Page {
         std::string label;
         bool focus = false;
         std::vector<Option> options;
+        bool ofImages = false; // the options go from left to right, as the images do
         std::optional<Field> field;
         std::optional<Slider> slider;
+    };
+    // A line of a small table: what it is, and how it stands.
+    struct Fact {
+        std::string name, value;
     };
     // Room for images of one size, below each the name that answers have for it, or nothing.
     struct Pictures {
@@ -37,14 +43,20 @@ struct Page {
         std::vector<std::string> names = {};
     };
 
-    std::string warning; // a band across the top
+    std::string language;     // a BCP 47 tag: of characters that several languages share, it has
+                              // the shape that its readers know; "" for none in particular
+    bool rightToLeft = false; // the first option and a slider's low end are on the right
+    std::string warning;      // a band across the top
     Pictures pictures;
     std::string heading;
+    std::vector<Fact> facts;
     std::string text;
     std::optional<Field> field;
     std::string note; // small, below
     std::vector<Part> parts;
     std::vector<Option> options;
+    bool ofImages = false; // as in a part
+    bool listed = false;   // the options stand below each other
 };
 
 struct Box {

@@ -16,38 +16,25 @@ namespace {
 
 constexpr double progressInterval = 0.1;    // seconds
 constexpr std::size_t expectedEvents = 256; // between two calls of events()
-constexpr const char* idTitle = "who takes part?";
 
 gl::Picture upload(const Image8& image) {
     return {image.width, image.height, image.channels, image.pixels};
 }
 
-// Types or deletes one character; false for all other input.
-bool edit(std::string& text, const gl::Input& input) {
-    const bool typed =
-        input.kind == gl::Input::Kind::text && input.symbol > 32 && input.symbol < 127;
-    const bool deleted =
-        input.kind == gl::Input::Kind::press && input.key == gl::Key::backspace && !text.empty();
-    if (typed)
-        text += static_cast<char>(input.symbol);
-    if (deleted)
-        text.pop_back();
-    return typed || deleted;
-}
-
 } // namespace
 
 Curtain curtain(const Study& study) {
-    checkShowable(study.protocol.texts);
+    for (const Texts* texts : study.protocol.languages())
+        checkShowable(*texts);
     return [&study](int width, int height) {
-        const Page page = loadingPage(study.protocol.texts, 0, imageCount(study.protocol));
+        const Page page = loadingPage(study.texts(), 0, imageCount(study.protocol));
         return drawPage(page, width, height, study.protocol.trial.grey).image;
     };
 }
 
 Presenter::Presenter(Display& display, const Study& study, std::string warning)
-    : display_(display), study_(study), texts_(study.protocol.texts),
-      screens_(study.protocol, display.window().width(), display.window().height(),
+    : display_(display), study_(study), texts_(study.texts()),
+      screens_(study.protocol, study.texts(), display.window().width(), display.window().height(),
                std::move(warning)),
       phases_(phasesOf(study.protocol.trial)), prepared_(phases_.size()) {
     screens_.check(); // what does not fit should stop the session before it begins
@@ -166,16 +153,23 @@ const std::vector<gl::Input>& Presenter::inputs() {
     return *inputs;
 }
 
+// The arrow to the right means the option on the right: on a page from right to left, the first.
+gl::Key Presenter::asRead(gl::Key key) const {
+    if (!sheet_ || !sheet_->screen.mirrored)
+        return key;
+    return key == gl::Key::left ? gl::Key::right : key == gl::Key::right ? gl::Key::left : key;
+}
+
 const std::vector<Event>& Presenter::events(bool wait) {
     using Kind = gl::Input::Kind;
     events_.clear();
     for (const gl::Input& input : wait ? inputs() : display_.window().poll())
         switch (input.kind) {
         case Kind::press:
-            events_.push_back({Event::Kind::press, input.time, input.key});
+            events_.push_back({Event::Kind::press, input.time, asRead(input.key)});
             break;
         case Kind::release:
-            events_.push_back({Event::Kind::release, input.time, input.key});
+            events_.push_back({Event::Kind::release, input.time, asRead(input.key)});
             break;
         case Kind::focusLost:
             events_.push_back({Event::Kind::focusLost, input.time});
@@ -191,6 +185,7 @@ const std::vector<Event>& Presenter::events(bool wait) {
         case Kind::text:
             events_.push_back({Event::Kind::text, input.time, {}, 0, 0, input.symbol});
             break;
+        case Kind::drag:
         case Kind::focusGained:
         case Kind::exposed:
             break;
@@ -210,6 +205,8 @@ Event Presenter::clicked(const gl::Input& input) const {
         return event;
     event.option = static_cast<int>(found - boxes.begin()) + 1;
     event.share = (input.x - found->x + 0.5) / found->width;
+    if (sheet_->screen.page.rightToLeft)
+        event.share = 1 - event.share;
     return event;
 }
 
@@ -236,7 +233,8 @@ bool Presenter::read(const Sheet& page) {
     turnTo(page);
     for (;;)
         for (const Event& event : answers()) {
-            if (event.key == gl::Key::space || event.kind == Event::Kind::option)
+            if (study_.protocol.keys.isGo(static_cast<int>(event.key)) ||
+                event.kind == Event::Kind::option)
                 return true;
             if (event.key == gl::Key::escape) {
                 if (leaves())
@@ -260,55 +258,29 @@ int Presenter::choose(const Sheet& page) {
         }
 }
 
-bool Presenter::instruct() { return read(sheet(instructionsPage(texts_), "instructions")); }
+bool Presenter::instruct() {
+    display_.countMarks();
+    return read(sheet(instructionsPage(texts_), "instructions"));
+}
 
 bool Presenter::rest() { return read(sheet(restPage(texts_), "break")); }
 
-void Presenter::thank() {
-    const Sheet page = sheet(thanksPage(texts_), "thanks");
-    turnTo(page);
+void Presenter::dismiss(Page page, std::string title) {
+    const Sheet last = sheet(std::move(page), std::move(title));
+    turnTo(last);
     answers();
 }
 
-std::optional<std::string>
-Presenter::askId(const std::function<IdVerdict(const std::string&)>& judge) {
-    std::string typed, problem;
-    Sheet page = sheet(idPage(texts_, typed, problem), idTitle);
-    turnTo(page);
-    for (;;) {
-        const auto before = std::pair(typed, problem);
-        for (const gl::Input& input : inputs()) {
-            const bool press = input.kind == gl::Input::Kind::press;
-            if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
-                return std::nullopt;
-            if (press && input.key == gl::Key::enter) {
-                const IdVerdict verdict = judge(typed);
-                const bool confirmed = verdict.broken && goesOn(*verdict.broken);
-                if (confirmed || (verdict.accepted && !verdict.broken))
-                    return typed;
-                problem = isParticipantId(typed) ? texts_.idTaken : texts_.idMalformed;
-                if (verdict.broken) {
-                    typed.clear();
-                    problem.clear();
-                    turnTo(page);
-                }
-            }
-            if (edit(typed, input))
-                problem.clear();
-        }
-        if (before != std::pair(typed, problem)) {
-            page = sheet(idPage(texts_, typed, problem), idTitle);
-            showSheet(page);
-        }
-    }
-}
-
-bool Presenter::goesOn(int trials) {
-    return choose(sheet(resumePage(texts_, trials, longest(study_.protocol)), "go on?")) == 1;
+void Presenter::preparePage(const Phase& page) {
+    page_ = &page;
+    drawn_ = {};
+    const std::string title = "Obscura: " + page.name;
+    preparedPage_ = {uploaded(screens_.phase(page, 0, 0), title), {}, 0, title};
 }
 
 void Presenter::prepare(const Upcoming& trial) {
     trial_ = trial;
+    page_ = nullptr;
     drawn_ = {};
     for (std::size_t i = 0; i < phases_.size(); ++i) {
         const Phase& phase = phases_[i];
@@ -335,11 +307,20 @@ void Presenter::prepare(const Upcoming& trial) {
 }
 
 double Presenter::show(const TrialMachine& trial) {
+    const bool comesOn = !trial.isOn() && trial.screen() != leaveScreen && !page_;
+    const double onset = showScreen(trial);
+    if (comesOn)
+        display_.mark(onset, trial_.index, trial.screen() + 1,
+                      phases_[static_cast<std::size_t>(trial.screen())].name);
+    return onset;
+}
+
+double Presenter::showScreen(const TrialMachine& trial) {
     if (trial.screen() == leaveScreen)
         return showSheet(leave_);
     const auto index = static_cast<std::size_t>(trial.screen());
-    const Phase& phase = phases_[index];
-    const Prepared& prepared = prepared_[index];
+    const Phase& phase = page_ ? *page_ : phases_[index];
+    const Prepared& prepared = page_ ? preparedPage_ : prepared_[index];
     if (const Form* form = trial.form(); form && form->changes() > 0) {
         if (drawn_ != std::pair(index, form->changes())) { // not at every refresh of a timed page
             answered_ =
@@ -353,8 +334,10 @@ double Presenter::show(const TrialMachine& trial) {
     if (!prepared.title.empty())
         title_ = prepared.title;
     std::span<const Placed> images = prepared.images;
-    if (phase.alternate > 0)
-        images = images.subspan(static_cast<std::size_t>(trial.alternation()), 1);
+    if (phase.alternate > 0) {
+        const std::size_t together = images.size() / static_cast<std::size_t>(phase.turns);
+        images = images.subspan(static_cast<std::size_t>(trial.alternation()) * together, together);
+    }
     return showImages(images, prepared.grey);
 }
 

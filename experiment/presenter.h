@@ -2,7 +2,11 @@
 
 #include "experiment/display.h"
 #include "experiment/observer.h"
+#include "experiment/pages.h"
 #include "experiment/screens.h"
+#include "experiment/viewing.h"
+
+#include <nlohmann/json.hpp>
 
 #include <functional>
 #include <map>
@@ -39,7 +43,16 @@ class Presenter : public Observer {
 
     // Asks for the participant's id until `judge` has no objection, and, of a session that broke
     // off, until the experimenter confirms that it goes on; nothing when Escape was pressed.
-    std::optional<std::string> askId(const std::function<IdVerdict(const std::string&)>& judge);
+    struct Start {
+        std::optional<std::string> id;
+        bool otherMonitor = false; // Tab was pressed: nothing begins on this one
+    };
+    Start askId(const StartFacts& start, const std::function<IdVerdict(const std::string&)>& judge);
+    // What session files say of how the images are seen.
+    void seenAs(Viewing viewing, nlohmann::ordered_json calibration) {
+        viewing_ = std::move(viewing);
+        calibration_ = std::move(calibration);
+    }
 
     // For one who is not a person: called before the presenter sleeps, with all on the screen, and
     // again after the seconds that it returns, should nothing arrive before.
@@ -48,13 +61,23 @@ class Presenter : public Observer {
     bool hasKeyboard() const { return display_.window().focused(); }
 
     Refresh refresh() const override { return display_.refresh(); }
-    void describe(nlohmann::ordered_json& sidecar) const override { display_.describe(sidecar); }
+    void describe(nlohmann::ordered_json& sidecar) const override {
+        display_.describe(sidecar);
+        obscura::describe(viewing_, sidecar);
+        if (!calibration_.empty())
+            sidecar["calibration"] = calibration_;
+    }
+    void describeOutcome(nlohmann::ordered_json& sidecar) const override {
+        display_.describeMarks(sidecar);
+    }
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
+    void preparePage(const Phase& page) override;
     double show(const TrialMachine& trial) override;
     const std::vector<Event>& events(bool wait) override;
     bool rest() override;
-    void thank() override;
+    void thank() override { dismiss(thanksPage(texts_), "thanks"); }
+    void decline() override { dismiss(declinedPage(texts_), "declined"); }
 
   private:
     // A page in graphics memory.
@@ -75,24 +98,31 @@ class Presenter : public Observer {
     Sheet sheet(Page page, const std::string& title) const; // with the warning above it
     Sheet uploaded(Screenful screen, std::string title) const;
     void loadImages();
+    double showScreen(const TrialMachine& trial);
     double showSheet(const Sheet& sheet);
     double showImages(std::span<const Placed> images, int grey);
     const gl::Picture& picture(const std::string& image) const;
     void place(const Screenful& screen, std::vector<Placed>& placed) const;
     void announce();
     const std::vector<gl::Input>& inputs();
+    gl::Key asRead(gl::Key key) const;
     Event clicked(const gl::Input& input) const;
     std::vector<Event> answers();
     void turnTo(const Sheet& page);
     bool read(const Sheet& page);
     bool leaves();
+    void dismiss(Page page, std::string title);
     int choose(const Sheet& page);
     bool goesOn(int trials);
+    Sheet startSheet(const StartFacts& start, const std::string& typed,
+                     const std::string& problem) const;
 
     Display& display_;
     const Study& study_;
     const Texts& texts_;
     Screens screens_;
+    Viewing viewing_;
+    nlohmann::ordered_json calibration_; // of the screen, as it was kept
     std::vector<Phase> phases_;
     std::vector<std::map<std::string, gl::Picture>> pictures_; // by condition and role
     Sheet leave_;
@@ -100,6 +130,8 @@ class Presenter : public Observer {
     Sheet answered_;                    // a page of questions as far as it is answered,
     std::pair<std::size_t, int> drawn_; // and of which phase, after how many changes
     Upcoming trial_;                    // the prepared one
+    const Phase* page_ = nullptr;       // outside trials: the prepared page,
+    Prepared preparedPage_;             // and what it shows
 
     // What is on the screen: a page, or else images or, without one, grey.
     const Sheet* sheet_ = nullptr;

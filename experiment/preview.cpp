@@ -40,18 +40,22 @@ std::string answerOf(const Phase& phase) {
 class Preview {
   public:
     Preview(const Study& study, int width, int height)
-        : study_(study), screens_(study.protocol, width, height, ""),
+        : study_(study), screens_(study.protocol, study.texts(), width, height, ""),
           trial_(upcoming(study.protocol, obscura::next(study.protocol, 1, {}).value(), 1,
                           longest(study.protocol))) {}
 
     std::vector<PreviewedScreen> all() {
-        const Texts& texts = study_.protocol.texts;
+        const Texts& texts = study_.texts();
+        for (const Phase& page : study_.protocol.before)
+            add(page);
         add("instructions", "Space or a click", screens_.page(instructionsPage(texts)));
         for (const Phase& phase : phasesOf(study_.protocol.trial))
             add(phase);
         if (const int every = study_.protocol.ordering.breakEvery; every > 0)
             add("break", fmt::format("Space or a click; after every {} main trials", every),
                 screens_.page(restPage(texts)));
+        for (const Phase& page : study_.protocol.after)
+            add(page);
         add("leave", "1 or Escape goes back, 2 ends; asked for by Escape",
             screens_.page(leavePage(texts)));
         add("thanks", "any key", screens_.page(thanksPage(texts)));
@@ -70,15 +74,17 @@ class Preview {
   private:
     void add(const Phase& phase) {
         Screenful screen = screens_.phase(phase, trial_.index, trial_.count);
-        if (phase.alternate == 0) {
+        if (screen.turns == 1) {
             add(phase.name, endOf(phase), screen);
             return;
         }
-        const std::vector<std::string> images = screen.images;
-        for (std::size_t i = 0; i < images.size(); ++i) {
-            screen.images = {images[i]};
-            add(fmt::format("{}, {} of {} in turn", phase.name, i + 1, images.size()), endOf(phase),
-                screen);
+        const std::vector<std::string> images = std::move(screen.images);
+        const auto together = static_cast<std::ptrdiff_t>(images.size()) / screen.turns;
+        for (int turn = 0; turn < screen.turns; ++turn) {
+            const auto first = images.begin() + turn * together;
+            screen.images.assign(first, first + together);
+            add(fmt::format("{}, {} of {} in turn", phase.name, turn + 1, screen.turns),
+                endOf(phase), screen);
         }
     }
 
@@ -136,16 +142,16 @@ class Preview {
 } // namespace
 
 std::string endOf(const Phase& phase) {
-    std::string end;
-    if (phase.alternate > 0)
-        end = fmt::format("each {:g} s, {} frames; ", phase.alternate,
-                          maskRefreshes(phase.alternate, refreshHz));
     if (!phase.questions.empty())
         return answerOf(phase) +
                (phase.counted() ? fmt::format("; or unanswered after {}", timeOf(phase)) : "");
     if (!phase.counted())
         return keyOf(phase);
-    return end + timeOf(phase) + (phase.locked() ? ", locked" : "; or " + keyOf(phase));
+    const std::string turns = phase.alternate > 0
+                                  ? fmt::format(", in turns of {:g} s, {} frames", phase.alternate,
+                                                maskRefreshes(phase.alternate, refreshHz))
+                                  : "";
+    return timeOf(phase) + turns + (phase.locked() ? ", locked" : "; or " + keyOf(phase));
 }
 
 std::vector<PreviewedScreen> previewed(const Study& study, int width, int height) {

@@ -57,13 +57,21 @@ void Recorder::trialStarted(int trial, const std::string& condition) {
 }
 
 void Recorder::finished(int trial, const TrialLines& lines) {
-    journal_.append(entry("trial_finished", {{"trial", trial},
-                                             {"rows", lines.rows},
-                                             {"phases", lines.phases},
-                                             {"answers", lines.answers}}));
+    keep("trial_finished", {{"trial", trial}}, lines);
+}
+
+void Recorder::pageFinished(std::string_view kind, const std::string& page,
+                            const TrialLines& lines) {
+    keep("page_finished", {{"pages", kind}, {"page", page}}, lines);
+}
+
+void Recorder::keep(std::string_view event, ordered_json details, const TrialLines& lines) {
+    details.update({{"rows", lines.rows}, {"phases", lines.phases}, {"answers", lines.answers}});
+    journal_.append(entry(event, details));
     if (rows_ && !lines.rows.empty())
         rows_->append(lines.rows);
-    phases_.append(lines.phases);
+    if (!lines.phases.empty())
+        phases_.append(lines.phases);
     if (!lines.answers.empty())
         answers_.append(lines.answers);
 }
@@ -85,7 +93,8 @@ std::string journalled(const std::string& journal, const char* table) {
          begin = end + 1) {
         const auto object =
             nlohmann::json::parse(journal.substr(begin, end - begin), nullptr, false);
-        if (object.is_object() && object.value("event", "") == "trial_finished")
+        if (object.is_object() && (object.value("event", "") == "trial_finished" ||
+                                   object.value("event", "") == "page_finished"))
             lines += object.value(table, "");
     }
     return lines;

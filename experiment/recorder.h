@@ -5,6 +5,8 @@
 #include "experiment/data_folder.h"
 #include "protocols/reader/responses.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,11 +21,12 @@ struct TrialLines {
 };
 
 // Keeps a session's tables and its journal, all safe on disk when a function returns. The journal
-// says session_started, then trial_started for each trial before its first image (and what leads to
-// it by the clock), trial_finished with the lines of all tables, presses_ignored where Space was
-// pressed too soon, then session_ended with the reason. A trial that was started but not finished
-// was broken off while the participant looked; a journal without session_ended is a crash. The
-// journal is written first: what a crash keeps from the tables, restoreTables() writes.
+// says session_started, then trial_started for each trial before its first image and what leads to
+// it by the clock, trial_finished with the lines of all tables, page_finished with those of a page
+// before or after the trials, presses_ignored where Space was pressed too soon, then session_ended
+// with the reason. A trial that was started but not finished was broken off while the participant
+// looked; a journal without session_ended is a crash. The journal is written first: what a crash
+// keeps from the tables, restoreTables() writes.
 class Recorder {
   public:
     // New files; an Error when this session has any. `slot`: whose order is shown; `pairs`: whether
@@ -36,12 +39,15 @@ class Recorder {
 
     void trialStarted(int trial, const std::string& condition);
     void finished(int trial, const TrialLines& lines);
+    // A page outside trials, `kind` "before" or "after" them.
+    void pageFinished(std::string_view kind, const std::string& page, const TrialLines& lines);
     void hastyPresses(int trial, int count); // of Space, ignored because an image had just come on
     void end(std::string_view reason);
 
   private:
     Recorder(std::optional<AppendFile> rows, AppendFile phases, AppendFile answers,
              AppendFile journal);
+    void keep(std::string_view event, nlohmann::ordered_json details, const TrialLines& lines);
 
     // No rows where the study's trials are no pairs.
     std::optional<AppendFile> rows_;

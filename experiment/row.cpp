@@ -133,17 +133,22 @@ std::string joined(const std::vector<std::string>& words, const char* separator)
     return fmt::format("{}", fmt::join(words, separator));
 }
 
-TrialKey keyOf(const Context& context, const Upcoming& trial, const std::string& part) {
-    const ConditionRecord& condition = context.study.condition(trial.planned.condition);
+TrialKey keyOf(const Context& context, std::string_view trial, const std::string& part) {
     TrialKey key;
     key.rowId = fmt::format("{}-{}-{}-{}", context.session.participant, context.session.number,
-                            trial.index, part);
+                            trial, part);
     key.studyId = context.study.protocol.name;
     key.participantId = context.session.participant;
     key.sessionId = fmt::format("{}", context.session.number);
     key.simulated = context.session.simulated;
     key.rehearsal = context.session.rehearsal;
     key.slotId = context.assignment.slot;
+    return key;
+}
+
+TrialKey keyOf(const Context& context, const Upcoming& trial, const std::string& part) {
+    const ConditionRecord& condition = context.study.condition(trial.planned.condition);
+    TrialKey key = keyOf(context, fmt::format("{}", trial.index), part);
     key.trialIndex = trial.index;
     key.trialKind = nameOf(trial.planned.kind);
     key.repeatIndex = trial.planned.repeat;
@@ -160,23 +165,12 @@ TrialKey keyOf(const Context& context, const Upcoming& trial, const std::string&
     return key;
 }
 
-PhaseRow phaseRow(const Context& context, const Upcoming& trial, const Phase& phase,
-                  const PhaseRecord& record, int index) {
+// But for the trial and its images.
+PhaseRow phaseRow(const Context& context, const Phase& phase, const PhaseRecord& record,
+                  int index) {
     PhaseRow row;
-    row.trial = keyOf(context, trial, phase.name);
     row.phaseIndex = index;
     row.phase = phase.name;
-    std::vector<std::string> roles, files, hashes;
-    for (const std::string& image : phase.images) {
-        const ImageRecord& shown =
-            context.study.condition(trial.planned.condition).image(trial.role(image));
-        roles.push_back(shown.role);
-        files.push_back(shown.image.path);
-        hashes.push_back(shown.image.sha256);
-    }
-    row.images = joined(roles, "+");
-    row.files = joined(files, "+");
-    row.sha256 = joined(hashes, "+");
     row.onsetMs = 1000 * record.onset;
     row.viewMs = 1000 * record.view;
     row.framesPlanned = record.framesPlanned;
@@ -191,15 +185,32 @@ PhaseRow phaseRow(const Context& context, const Upcoming& trial, const Phase& ph
     return row;
 }
 
-AnswerRow answerRow(const Context& context, const Upcoming& trial, const Phase& phase,
+PhaseRow phaseRow(const Context& context, const Upcoming& trial, const Phase& phase,
+                  const PhaseRecord& record, int index) {
+    PhaseRow row = phaseRow(context, phase, record, index);
+    row.trial = keyOf(context, trial, phase.name);
+    std::vector<std::string> roles, files, hashes;
+    for (const std::string& image : phase.images) {
+        const ImageRecord& shown =
+            context.study.condition(trial.planned.condition).image(trial.role(image));
+        roles.push_back(shown.role);
+        files.push_back(shown.image.path);
+        hashes.push_back(shown.image.sha256);
+    }
+    row.images = joined(roles, "+");
+    row.files = joined(files, "+");
+    row.sha256 = joined(hashes, "+");
+    return row;
+}
+
+AnswerRow answerRow(const Context& context, const TrialKey& key, const Phase& phase,
                     const Question& question, const Answer& answer) {
     AnswerRow row;
-    row.trial = keyOf(context, trial, question.name);
+    row.trial = key;
     row.phase = phase.name;
     row.question = question.name;
     row.kind = nameOf(question.kind);
     row.value = answer.value;
-    row.role = rolesIn(question, answer.value, trial.order);
     row.responseMs = 1000 * answer.seconds;
     row.appVersion = version();
     row.gitCommit = commit();
@@ -240,13 +251,34 @@ TrialLines linesOf(const Context& context, const Upcoming& trial, const TrialRec
         lines.phases += phaseLine(
             phaseRow(context, trial, phases[i], record.phases[i], static_cast<int>(i) + 1));
         for (const Question& question : phases[i].questions) {
-            AnswerRow row =
-                answerRow(context, trial, phases[i], question, record.answers[answered++]);
+            AnswerRow row = answerRow(context, keyOf(context, trial, question.name), phases[i],
+                                      question, record.answers[answered++]);
+            row.role = rolesIn(question, row.value, trial.order);
             row.interrupted = record.interrupted;
             lines.answers += answerLine(row);
         }
     }
     return lines;
+}
+
+TrialLines linesOf(const Context& context, std::string_view kind, const Phase& page,
+                   const TrialRecord& record) {
+    TrialLines lines;
+    PhaseRow row = phaseRow(context, page, record.phases.front(), 1);
+    row.trial = keyOf(context, kind, page.name);
+    row.trial.trialKind = kind;
+    lines.phases = phaseLine(row);
+    for (std::size_t i = 0; i < page.questions.size(); ++i)
+        lines.answers += answerLineOf(context, kind, page, record, i);
+    return lines;
+}
+
+std::string answerLineOf(const Context& context, std::string_view kind, const Phase& page,
+                         const TrialRecord& record, std::size_t question) {
+    const Question& asked = page.questions[question];
+    TrialKey key = keyOf(context, kind, asked.name);
+    key.trialKind = kind;
+    return answerLine(answerRow(context, key, page, asked, record.answers[question]));
 }
 
 } // namespace obscura

@@ -9,6 +9,8 @@
 #include "protocols/reader/responses.h"
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 namespace obscura {
 
@@ -41,5 +43,11 @@ std::string rolesIn(const Question& question, const std::string& value,
 
 // The same as lines of all tables.
 TrialLines linesOf(const Context& context, const Upcoming& trial, const TrialRecord& record);
+// And of a page before or after the trials, `kind`: their trial's number is 0, its kind this.
+TrialLines linesOf(const Context& context, std::string_view kind, const Phase& page,
+                   const TrialRecord& record);
+// Of one of its questions alone, from 0.
+std::string answerLineOf(const Context& context, std::string_view kind, const Phase& page,
+                         const TrialRecord& record, std::size_t question);
 
 } // namespace obscura

@@ -18,14 +18,19 @@ struct Screenful {
     int grey = 128;                  // a code value
     std::vector<std::string> images; // each by its place in the order or its role,
     std::vector<Box> places;         // and where it goes
+    int turns = 1;         // > 1: an equal part of the images at a time, as they stand here
+    bool mirrored = false; // the page's first option, or slider's low end, is on the right
 };
 
 // Lays out a study's screens, all for a display of one size. The presenter shows what this yields,
 // and the preview draws it: neither knows another way.
 class Screens {
   public:
-    // `warning` stands above every page of text; "" for none.
-    Screens(const Protocol& protocol, int width, int height, std::string warning);
+    // In the language of `texts`, which the protocol has. `warning` stands above every page of
+    // text;
+    // "" for none.
+    Screens(const Protocol& protocol, const Texts& texts, int width, int height,
+            std::string warning);
 
     int width() const { return width_; }
     int height() const { return height_; }
@@ -34,7 +39,7 @@ class Screens {
     // A page that has been laid out, as it looks while another window has the keyboard.
     Screenful unfocused(const Screenful& screen) const;
     // Of a phase, in the `trial`th of so many trials. One that asks shows how far `form` has been
-    // answered. One that shows images in turn has all of them, at one place.
+    // answered.
     Screenful phase(const Phase& phase, int trial, int trials, const Form& form) const;
     Screenful phase(const Phase& phase, int trial, int trials) const; // nothing answered yet
 
@@ -48,6 +53,7 @@ class Screens {
     Page::Pictures roomFor(const Phase& phase) const;
 
     const Protocol& protocol_;
+    const Texts& texts_;
     int width_, height_;
     std::string warning_;
 };

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "experiment/continuity.h"
+#include "experiment/page_run.h"
 #include "experiment/play.h"
 #include "experiment/recorder.h"
 #include "experiment/row.h"
@@ -9,6 +10,7 @@
 #include "experiment/sidecar.h"
 #include "experiment/signals.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -44,7 +46,8 @@ bool playAll(const Context& context, const BrokenSession& before, Observer& obse
             continue;
         }
         const Upcoming trial = upcoming(protocol, *planned, index++, count);
-        TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz);
+        TrialMachine machine(phases, static_cast<int>(trial.order.size()), context.refresh.hz,
+                             protocol.keys);
         observer.prepare(trial);
         if (!play(machine, observer, [&] {
                 recorder.trialStarted(trial.index,
@@ -99,18 +102,25 @@ bool run(const Study& study, const DataFolder& folder, const BrokenSession& befo
     std::vector<double> intervals;
     std::optional<EndedBySignal> ended;
     try {
-        completed = observer.instruct() && playAll(context, before, observer, recorder, intervals);
-        if (completed)
-            reason = "completed";
+        const PagesEnd entered = runPages(context, "before", before.pages, observer, recorder);
+        if (!entered.endedBy.empty())
+            reason = fmt::format("{}\"{}\"", endedByAnswer, entered.endedBy);
+        completed = entered.finished && observer.instruct() &&
+                    playAll(context, before, observer, recorder, intervals);
+        if (completed) {
+            reason = "completed"; // whatever comes of the pages after
+            runPages(context, "after", before.pages, observer, recorder);
+        }
     } catch (const EndedBySignal& signal) {
         ended = signal;
-        reason = "ended by " + signal.name();
+        if (!completed)
+            reason = "ended by " + signal.name();
     } catch (const std::exception& error) {
         noteStop(recorder, error.what());
         throw;
     }
     recorder.end(reason);
-    addOutcome(sidecar, reason, intervals, refresh.hz);
+    addOutcome(sidecar, reason, intervals, refresh.hz, observer);
     writeFile(folder.sidecar(session), sidecar.dump(2) + "\n");
     if (completed && claim)
         claim->complete();
@@ -127,7 +137,7 @@ bool runSession(const Study& study, const DataFolder& folder, const SessionId& s
                 Observer& observer) {
     throwIfEnded();
     folder.prepare();
-    return run(study, folder, {session, 0, {}, 0, {}}, false, observer);
+    return run(study, folder, {session, 0, {}, 0, {}, {}}, false, observer);
 }
 
 bool resumeSession(const Study& study, const DataFolder& folder, const BrokenSession& broken,

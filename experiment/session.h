@@ -9,11 +9,12 @@
 
 namespace obscura {
 
-// One participant, from claiming a slot to the last row: instructions, every trial in the slot's
-// order, thanks. Each row is on disk before the next trial begins. True when all trials were
-// recorded; otherwise the person left, the rows so far are kept and the slot is given back. A
-// signal does the same, and then throws EndedBySignal. A rehearsal takes no slot: it has the order
-// of the first.
+// One participant, from claiming a slot to the last row: the pages before, instructions, every
+// trial in the slot's order, the pages after, thanks. Each row is on disk before the next trial
+// begins. True when all trials were recorded; otherwise the person left, the rows so far are kept
+// and the slot is given back. A signal does the same, and then throws EndedBySignal. A rehearsal
+// takes no slot: it has the order of the first. Where an answer before the trials ends the session
+// (no consent), nothing but that answer is kept.
 bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
                 Observer& observer);
 

@@ -47,6 +47,7 @@ ordered_json circumstances(const Context& context, const Observer& observer) {
         {"session", context.session.number},
         {"simulated", context.session.simulated},
         {"rehearsal", context.session.rehearsal},
+        {"language", nullptr}, // in which participants read; null where the protocol says none
         {"slot", context.assignment.slot},
         {"square", context.assignment.square},
         {"square_row", context.assignment.row},
@@ -66,6 +67,8 @@ ordered_json circumstances(const Context& context, const Observer& observer) {
         {"ended", nullptr},
         {"end_reason", "running, or crashed"},
     };
+    if (const std::string& language = context.study.texts().language; !language.empty())
+        sidecar["language"] = language;
     observer.describe(sidecar);
     return sidecar;
 }
@@ -89,11 +92,13 @@ ordered_json continued(const std::filesystem::path& file, const ordered_json& no
 }
 
 void addOutcome(ordered_json& sidecar, const std::string& reason,
-                const std::vector<double>& maskIntervals, double refreshHz) {
+                const std::vector<double>& maskIntervals, double refreshHz,
+                const Observer& observer) {
     sidecar["ended"] = utcNow();
     sidecar["end_reason"] = reason;
     ordered_json& part = sidecar.contains("resumed") ? sidecar["resumed"].back() : sidecar;
     part["mask_intervals"] = spell(summarise(maskIntervals, refreshHz));
+    observer.describeOutcome(part);
 }
 
 } // namespace obscura

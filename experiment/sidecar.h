@@ -23,6 +23,7 @@ nlohmann::ordered_json continued(const std::filesystem::path& file,
 
 // Of intervals, those since it began or went on.
 void addOutcome(nlohmann::ordered_json& sidecar, const std::string& reason,
-                const std::vector<double>& maskIntervals, double refreshHz);
+                const std::vector<double>& maskIntervals, double refreshHz,
+                const Observer& observer);
 
 } // namespace obscura

@@ -19,6 +19,13 @@ gl::Key digit(int number) {
     return static_cast<gl::Key>(static_cast<int>(gl::Key::zero) + number % 10);
 }
 
+// The first option with which the session goes on, from 1.
+int admitted(const Question& question) {
+    const auto option =
+        std::find(question.options.begin(), question.options.end(), question.endsUnless.front());
+    return static_cast<int>(option - question.options.begin()) + 1;
+}
+
 } // namespace
 
 SimulatedParticipant::SimulatedParticipant(const Protocol& protocol, std::uint64_t seed,
@@ -45,6 +52,19 @@ void SimulatedParticipant::prepare(const Upcoming& trial) {
         trial.order.front() == "b" ? 1 - condition.simulated.chooseB : condition.simulated.chooseB;
     chooseSecond_ = std::clamp(preferSecond + protocol_.simulation.positionBias, 0.0, 1.0);
     deed_.reset();
+    page_ = nullptr;
+}
+
+void SimulatedParticipant::preparePage(const Phase& page) {
+    deed_.reset();
+    page_ = &page;
+}
+
+gl::Key SimulatedParticipant::keyOf(const Question& question, int option) const {
+    const Keys& keys = protocol_.keys;
+    if (isOfTwo(question) && option <= 2)
+        return static_cast<gl::Key>((option == 1 ? keys.first : keys.second).front());
+    return digit(option);
 }
 
 void SimulatedParticipant::sees(const TrialMachine& trial, double time) {
@@ -52,7 +72,7 @@ void SimulatedParticipant::sees(const TrialMachine& trial, double time) {
         deed_.reset();
     if (deed_ || screen_ == leaveScreen)
         return;
-    const Phase& phase = phases_[static_cast<std::size_t>(screen_)];
+    const Phase& phase = phaseOn(screen_);
     if (!trial.form() && phase.locked())
         return;
     deed_ = decide(trial, phase);
@@ -79,12 +99,13 @@ Deed SimulatedParticipant::decide(const TrialMachine& trial, const Phase& phase)
         draw(phase.images.empty() ? protocol_.simulation.decision : protocol_.simulation.view);
     return {phase.atLeast > 0 || !phase.images.empty() ? std::max(phase.atLeast + quickest, time)
                                                        : time,
-            gl::Key::space,
+            static_cast<gl::Key>(protocol_.keys.go.front()),
             {}};
 }
 
 // Which image of a pair looks better is the model's; all other questions are answered at random: a
-// number in the middle of the range, or a letter, where they are typed.
+// number in the middle of the range, or a letter, where they are typed; but never so that the
+// session ends.
 Deed SimulatedParticipant::answer(const Form& form) {
     Deed deed{draw(protocol_.simulation.decision), gl::Key::enter, {}}; // to the next, or the end
     if (form.answered(static_cast<std::size_t>(form.focus())))
@@ -93,14 +114,19 @@ Deed SimulatedParticipant::answer(const Form& form) {
     switch (question.kind) {
     case Question::Kind::choice:
         if (question.images && question.options.size() == 2 && question.unsure.empty()) {
-            deed.key = random_.uniform() < chooseSecond_ ? gl::Key::two : gl::Key::one;
+            deed.key = keyOf(question, random_.uniform() < chooseSecond_ ? 2 : 1);
             break;
         }
         [[fallthrough]];
     case Question::Kind::scale:
+        if (!question.endsUnless.empty()) {
+            deed.key = keyOf(question, admitted(question));
+            break;
+        }
+        [[fallthrough]];
     case Question::Kind::rank:
-        deed.key = digit(1 + static_cast<int>(random_.below(
-                                 static_cast<std::uint32_t>(form.optionsOf(question)))));
+        deed.key = keyOf(question, 1 + static_cast<int>(random_.below(
+                                           static_cast<std::uint32_t>(form.optionsOf(question)))));
         break;
     case Question::Kind::slider:
         deed.key = digit(static_cast<int>(random_.below(10)));

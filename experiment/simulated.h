@@ -32,6 +32,7 @@ class SimulatedParticipant {
 
     void describe(nlohmann::ordered_json& sidecar) const;
     void prepare(const Upcoming& trial);
+    void preparePage(const Phase& page); // before or after the trials
     // The trial's screen is on since then, or what it shows has changed. Unless it is about to do
     // something on that screen already, the participant decides what.
     void sees(const TrialMachine& trial, double time);
@@ -42,6 +43,10 @@ class SimulatedParticipant {
     double reading(); // seconds for which it looks at a page outside a trial
 
   private:
+    const Phase& phaseOn(Screen screen) const {
+        return page_ ? *page_ : phases_[static_cast<std::size_t>(screen)];
+    }
+    gl::Key keyOf(const Question& question, int option) const;
     Deed decide(const TrialMachine& trial, const Phase& phase);
     Deed answer(const Form& form);
     double draw(const ExGaussian& time);
@@ -51,6 +56,7 @@ class SimulatedParticipant {
     std::uint64_t seed_;
     Random random_, pages_; // pages outside a trial leave what it does in trials as it is
     double chooseSecond_ = 0.5;
+    const Phase* page_ = nullptr; // outside trials
     std::optional<Deed> deed_;
     Screen screen_ = 0; // where
 };
@@ -67,10 +73,12 @@ class SimulatedObserver : public Observer {
     }
     bool instruct() override { return true; }
     void prepare(const Upcoming& trial) override { participant_.prepare(trial); }
+    void preparePage(const Phase& page) override { participant_.preparePage(page); }
     double show(const TrialMachine& trial) override; // at the next refresh
     const std::vector<Event>& events(bool wait) override;
     bool rest() override { return true; }
     void thank() override {}
+    void decline() override {}
 
   private:
     SimulatedParticipant participant_;

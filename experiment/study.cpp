@@ -59,6 +59,13 @@ const ConditionRecord& Study::condition(int index) const {
     return manifest.conditions.at(static_cast<std::size_t>(index));
 }
 
+const Texts& Study::texts() const {
+    for (const Texts& translation : protocol.translations)
+        if (translation.language == language)
+            return translation;
+    return protocol.texts;
+}
+
 std::string Study::design() const {
     nlohmann::json design = nlohmann::json::parse(designOf(protocol));
     for (const ConditionRecord& condition : manifest.conditions)

@@ -13,7 +13,9 @@ namespace obscura {
 struct Study {
     Protocol protocol;
     Manifest manifest;
+    std::string language = {}; // in which it is shown, a tag; "" for the protocol's first
 
+    const Texts& texts() const;
     const ConditionRecord& condition(int index) const; // as the protocol counts them, from 0
 
     // All that must be the same for every participant: the protocol's design

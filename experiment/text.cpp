@@ -32,7 +32,7 @@ void placePart(Setter& setter, const Page::Part& part, std::vector<Box>& options
     if (part.slider)
         options.push_back(setter.slider(*part.slider));
     if (!part.options.empty()) {
-        const std::vector<Box> boxes = setter.options(part.options);
+        const std::vector<Box> boxes = setter.options(part.options, part.ofImages);
         options.insert(options.end(), boxes.begin(), boxes.end());
     }
 }
@@ -47,13 +47,15 @@ PlacedPage place(Setter& setter, const Page& page, double top) {
     }
     setter.title(page.heading, 1.5, true);
     setter.gap(page.heading.empty() ? 0 : 0.9);
+    setter.facts(page.facts);
+    setter.gap(page.facts.empty() ? 0 : 0.9);
     setter.paragraph(page.text, 1);
     if (page.field) {
         setter.gap(1);
         setter.field(*page.field);
     }
     for (const Page::Part& part : page.parts) {
-        setter.gap(&part == &page.parts.front() ? 0 : 1);
+        setter.gap(&part == &page.parts.front() && page.text.empty() ? 0 : 1);
         placePart(setter, part, placed.options);
     }
     if (!page.note.empty()) {
@@ -63,7 +65,8 @@ PlacedPage place(Setter& setter, const Page& page, double top) {
     placed.bottom = setter.y;
     if (!page.options.empty()) {
         setter.gap(page.pictures.count > 0 ? 0.7 : 1.6);
-        const std::vector<Box> boxes = setter.options(page.options);
+        const std::vector<Box> boxes =
+            page.listed ? setter.list(page.options) : setter.options(page.options, page.ofImages);
         placed.options.insert(placed.options.end(), boxes.begin(), boxes.end());
         placed.bottom = setter.y;
     }
@@ -73,7 +76,7 @@ PlacedPage place(Setter& setter, const Page& page, double top) {
 // Draws the page, or nothing when it does not fit with type of this size.
 std::optional<PlacedPage> trySize(cairo_t* cairo, const Page& page, const Palette& palette,
                                   int width, int height, double em, bool breaksWords) {
-    Setter setter(cairo, palette, width, em);
+    Setter setter(cairo, palette, width, em, page);
     setter.breaksWords = breaksWords;
     if (!page.warning.empty())
         setter.warning(page.warning);
@@ -112,6 +115,15 @@ std::string named(char32_t character) {
                : code;
 }
 
+// The blocks that Unicode keeps for scripts from right to left.
+bool isFromRightToLeft(gunichar letter) {
+    const auto in = [letter](gunichar first, gunichar last) {
+        return letter >= first && letter <= last;
+    };
+    return in(0x590, 0x8FF) || in(0xFB1D, 0xFDFF) || in(0xFE70, 0xFEFF) || in(0x10800, 0x10FFF) ||
+           in(0x1E800, 0x1EFFF);
+}
+
 bool isControl(char c) {
     return (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t') ||
            c == 0x7f;
@@ -144,6 +156,15 @@ DrawnPage drawPage(const Page& page, int width, int height, int grey) {
     throw Error(fmt::format("a text is too long for a screen of {}x{} pixels, even in small type: "
                             "{}; shorten it in the protocol, or take a larger screen",
                             width, height, opening(page)));
+}
+
+bool runsFromRightToLeft(const std::string& text) {
+    int balance = 0;
+    for (const char* at = text.c_str(); *at && g_utf8_get_char_validated(at, -1) < 0x110000;
+         at = g_utf8_next_char(at))
+        if (const gunichar letter = g_utf8_get_char(at); g_unichar_isalpha(letter))
+            balance += isFromRightToLeft(letter) ? 1 : -1;
+    return balance > 0;
 }
 
 // Where a font lacks a character, Pango's glyph is the character itself with a flag.

@@ -17,9 +17,12 @@ struct DrawnPage {
 // Sets a page on the study's grey, in near-black or near-white, whichever contrasts more. The type
 // is sized to be read at arm's length (a capital letter is about 1/50 of the screen's height) in
 // lines of at most some 65 characters; a long text is set smaller, down to 3/5 of that, but never
-// too small to read. An Error says so when it does not fit even then. Paragraphs run from left to
-// right or from right to left, as their first letter does.
+// too small to read. An Error says so when it does not fit even then. Paragraphs run as the page
+// does from right to left, and otherwise as their first letter.
 DrawnPage drawPage(const Page& page, int width, int height, int grey);
+
+// Whether most of its letters run so.
+bool runsFromRightToLeft(const std::string& text);
 
 // The characters of a text for which no installed font has a glyph, so that only boxes would be
 // drawn, each once and as people look them up: "図 (U+56F3)". Control characters are among them.

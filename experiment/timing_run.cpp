@@ -37,15 +37,20 @@ bool escapes(gl::Window& window) {
 }
 
 // Nothing when Escape was pressed.
-std::optional<MaskTiming> holdMask(Display& display, const TimingRun& run,
-                                   const gl::Picture& after) {
+std::optional<MaskTiming> holdMask(Display& display, const TimingRun& run, const gl::Picture& after,
+                                   int number) {
     RefreshCount count(run.refresh.hz, run.planned);
     while (count.refreshes() < run.planned) {
-        count.add(display.show(nullptr));
+        const double time = display.show(nullptr);
+        if (count.refreshes() == 0)
+            display.mark(time, number, 1, "mask");
+        count.add(time);
         if (escapes(display.window()))
             return std::nullopt;
     }
-    count.end(display.show(&after, true));
+    const double time = display.show(&after, true);
+    display.mark(time, number, 2, "image");
+    count.end(time);
     return MaskTiming{count.seconds(), count.refreshes(), count.missed()};
 }
 
@@ -77,7 +82,7 @@ void holdMasks(Display& display, int masks, TimingRun& run,
     display.show(&images[0], true);
     for (int i = 1; i <= masks; ++i) {
         std::this_thread::sleep_for(viewed);
-        const auto mask = holdMask(display, run, images[static_cast<std::size_t>(i % 2)]);
+        const auto mask = holdMask(display, run, images[static_cast<std::size_t>(i % 2)], i);
         if (!mask) {
             run.ended = "ended by Escape";
             return;

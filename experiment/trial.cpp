@@ -32,9 +32,9 @@ int optionOf(gl::Key key) {
     return digit == 1 || digit == 2 ? digit : 0;
 }
 
-TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refreshHz)
-    : phases_(std::move(phases)), refreshHz_(refreshHz), forms_(phases_.size()),
-      count_(refreshHz, longest(phases_, refreshHz)) {
+TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refreshHz, Keys keys)
+    : phases_(std::move(phases)), refreshHz_(refreshHz), keys_(std::move(keys)),
+      forms_(phases_.size()), count_(refreshHz, longest(phases_, refreshHz)) {
     record_.phases.resize(phases_.size());
     held_.reserve(fingers);
     const auto shows = [](const Phase& phase) { return !phase.images.empty(); };
@@ -52,7 +52,7 @@ TrialMachine::TrialMachine(std::vector<Phase> phases, int images, double refresh
         record.framesPlanned = planned(phases_[i], refreshHz);
         record.intervals.reserve(static_cast<std::size_t>(record.framesPlanned));
         if (!phases_[i].questions.empty())
-            forms_[i].emplace(phases_[i].questions, images);
+            forms_[i].emplace(phases_[i].questions, images, keys_);
         questions += phases_[i].questions.size();
     }
     record_.answers.reserve(questions);
@@ -92,7 +92,7 @@ int TrialMachine::alternation() const {
     const Phase& current = phase(screen_);
     const int each = maskRefreshes(current.alternate, refreshHz_);
     const int shown = record_.phases[static_cast<std::size_t>(screen_)].framesShown;
-    return shown / each % static_cast<int>(current.images.size());
+    return shown / each % current.turns;
 }
 
 void TrialMachine::shown(double time) {
@@ -201,7 +201,7 @@ void TrialMachine::press(gl::Key key, double time) {
         leave(optionOf(key));
     else if (Form* page = asked())
         answer(page->press(key, viewed(screen_, time)), time);
-    else if (key == gl::Key::space && phase(screen_).key)
+    else if (keys_.isGo(static_cast<int>(key)) && phase(screen_).key)
         end(time);
 }
 

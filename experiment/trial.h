@@ -73,13 +73,13 @@ class TrialMachine {
     };
 
     // `images`: how many places the trial's order has.
-    TrialMachine(std::vector<Phase> phases, int images, double refreshHz);
+    TrialMachine(std::vector<Phase> phases, int images, double refreshHz, Keys keys = {});
 
     Next next() const;
     Screen screen() const { return screen_; }
     // Of a phase that asks, what its page shows.
     const Form* form() const;
-    // Of a phase that shows images in turn, which is the next to be shown, from 0.
+    // Of a phase that shows images in turn, whose turn is next, from 0.
     int alternation() const;
     const TrialRecord& record() const { return record_; }
 
@@ -116,6 +116,7 @@ class TrialMachine {
 
     std::vector<Phase> phases_;
     double refreshHz_;
+    Keys keys_;
     TrialRecord record_;
 
     Screen screen_ = 0;             // wanted

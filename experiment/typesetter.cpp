@@ -1,6 +1,9 @@
 #include "experiment/typesetter.h"
 
+#include "experiment/text.h"
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 namespace obscura {
@@ -28,10 +31,35 @@ void narrow(PangoLayout* layout) {
     pango_layout_set_width(layout, std::min(pango_layout_get_width(layout), widest + PANGO_SCALE));
 }
 
+// The languages that fonts know have no scripts in their tags: of Chinese, they have countries.
+PangoLanguage* fontLanguage(const std::string& tag) {
+    std::string lower = tag;
+    std::transform(lower.begin(), lower.end(), lower.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const bool country = lower.find("-tw") != lower.npos || lower.find("-hk") != lower.npos ||
+                         lower.find("-mo") != lower.npos;
+    if (lower == "zh" || (lower.starts_with("zh-hans") && !country))
+        lower = "zh-cn";
+    else if (lower.starts_with("zh-hant"))
+        lower = lower.find("-hk") != lower.npos ? "zh-hk" : "zh-tw";
+    return pango_language_from_string(lower.c_str());
+}
+
 } // namespace
 
-Layout layOut(cairo_t* cairo, const std::string& text, double pixels, bool bold) {
+Layout layOut(cairo_t* cairo, const std::string& text, double pixels, bool bold,
+              const Script& script) {
     Layout layout(pango_cairo_create_layout(cairo));
+    PangoContext* context = pango_layout_get_context(layout.get());
+    if (!script.language.empty())
+        pango_context_set_language(context, fontLanguage(script.language));
+    if (script.direction) {
+        pango_context_set_base_dir(context, *script.direction);
+        pango_layout_set_auto_dir(layout.get(), FALSE); // nor does Pango then choose the side
+        pango_layout_set_alignment(layout.get(), *script.direction == PANGO_DIRECTION_RTL
+                                                     ? PANGO_ALIGN_RIGHT
+                                                     : PANGO_ALIGN_LEFT);
+    }
     const Font font(pango_font_description_from_string(family));
     pango_font_description_set_absolute_size(font.get(), std::round(pixels) * PANGO_SCALE);
     pango_font_description_set_weight(font.get(), bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
@@ -66,8 +94,9 @@ std::vector<Box> gridOf(const Page::Pictures& pictures, int width, int below) {
 
 double Setter::column(double size) const { return std::min(measure * size * em_, 0.86 * width_); }
 
-Layout Setter::lay(const std::string& text, double size, bool bold, double wrapAt) const {
-    Layout layout = layOut(cairo_, text, size * em_, bold);
+Layout Setter::lay(const std::string& text, double size, bool bold, double wrapAt,
+                   const Script& script) const {
+    Layout layout = layOut(cairo_, text, size * em_, bold, script);
     pango_layout_set_width(layout.get(), static_cast<int>(std::max(wrapAt, em_)) * PANGO_SCALE);
     pango_layout_set_wrap(layout.get(), PANGO_WRAP_WORD_CHAR);
     pango_layout_set_line_spacing(layout.get(), lineSpacing);
@@ -85,10 +114,11 @@ Setter::Block Setter::boxed(Layout layout) {
             static_cast<double>(right - left), static_cast<double>(bottom - top)};
 }
 
-Setter::Block Setter::block(const std::string& text, double size, bool bold, double wrapAt) const {
+Setter::Block Setter::block(const std::string& text, double size, bool bold, double wrapAt,
+                            const Script& script) const {
     if (text.empty())
         return {};
-    Layout layout = lay(text, size, bold, wrapAt);
+    Layout layout = lay(text, size, bold, wrapAt, script);
     narrow(layout.get());
     return boxed(std::move(layout));
 }
@@ -145,11 +175,34 @@ void Setter::centred(const std::string& text, double size, bool bold, PangoAlign
 // Centred as a block, its lines flush with the side from which they are read: a short line stands
 // over the options, a long text fills the column.
 void Setter::paragraph(const std::string& text, double size, bool bold) {
-    centred(text, size, bold, PANGO_ALIGN_LEFT);
+    centred(text, size, bold, mirrored_ ? PANGO_ALIGN_RIGHT : PANGO_ALIGN_LEFT);
 }
 
 void Setter::title(const std::string& text, double size, bool bold) {
     centred(text, size, bold, PANGO_ALIGN_CENTER);
+}
+
+void Setter::facts(const std::vector<Page::Fact>& facts) {
+    constexpr double size = 0.75;
+    const double length = std::min(1.4 * column(), 0.9 * width_);
+    double names = 0, values = 0;
+    for (const Page::Fact& fact : facts)
+        names = std::max(names, block(fact.name, size, true, length / 2, {}).width);
+    const double beside = names + 1.2 * em_;
+    for (const Page::Fact& fact : facts)
+        values = std::max(values, block(fact.value, size, false, length - beside, {}).width);
+    const double x = (width_ - beside - values) / 2;
+    for (const Page::Fact& fact : facts) {
+        const Block name = block(fact.name, size, true, length / 2, {}),
+                    value = block(fact.value, size, false, length - beside, {});
+        if (drawing) {
+            ink(palette_.ink);
+            put(name, x, y);
+            put(value, x + beside, y);
+        }
+        tooWide |= beside + value.width > length + 1;
+        y += std::max(name.height, value.height) + 0.25 * em_;
+    }
 }
 
 void Setter::fill(double shade, double edge, double line) const {
@@ -160,12 +213,15 @@ void Setter::fill(double shade, double edge, double line) const {
     cairo_stroke(cairo_);
 }
 
-// Of a text that is too long for the field, the end is shown.
+// Of a text that is too long for the field, the end is shown. What is typed runs as its own letters
+// do, and stands at the side from which the page is read.
 Box Setter::field(const Page::Field& field) {
     const double fieldWidth = std::min(18 * em_, column()), height = 2.2 * em_;
     const double x = (width_ - fieldWidth) / 2, top = y;
     Layout layout =
-        lay(field.typed + (field.focus ? "\u2502" : ""), 1.1, false, fieldWidth - 1.2 * em_);
+        lay(field.typed + (field.focus ? "\u2502" : ""), 1.1, false, fieldWidth - 1.2 * em_,
+            {script_.language,
+             runsFromRightToLeft(field.typed) ? PANGO_DIRECTION_RTL : PANGO_DIRECTION_LTR});
     pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
     pango_layout_set_ellipsize(layout.get(), PANGO_ELLIPSIZE_START);
     const Block line = boxed(std::move(layout));
@@ -173,7 +229,8 @@ Box Setter::field(const Page::Field& field) {
         rounded(x, y, fieldWidth, height, 0.3 * em_);
         fill(palette_.card, field.focus ? palette_.ink : palette_.edge, field.focus ? 3 : 2);
         ink(palette_.ink);
-        put(line, x + 0.6 * em_, y + (height - line.height) / 2);
+        put(line, mirrored_ ? x + fieldWidth - 0.6 * em_ - line.width : x + 0.6 * em_,
+            y + (height - line.height) / 2);
     }
     y += height;
     return {static_cast<int>(x), static_cast<int>(top), static_cast<int>(fieldWidth),
@@ -198,10 +255,11 @@ Box Setter::slider(const Page::Slider& slider) {
         cairo_move_to(cairo_, x, line);
         cairo_line_to(cairo_, x + length, line);
         cairo_stroke(cairo_);
-        put(low, x, line + 0.8 * em_);
-        put(high, x + length - high.width, line + 0.8 * em_);
+        const Block &left = mirrored_ ? high : low, &right = mirrored_ ? low : high;
+        put(left, x, line + 0.8 * em_);
+        put(right, x + length - right.width, line + 0.8 * em_);
         if (slider.share) {
-            const double at = x + *slider.share * length;
+            const double at = x + (mirrored_ ? 1 - *slider.share : *slider.share) * length;
             rounded(at - knob, line - knob, 2 * knob, 2 * knob, knob);
             fill(palette_.ink, palette_.paper, 2);
             ink(palette_.ink);
@@ -245,7 +303,8 @@ Setter::Card Setter::card(const Page::Option& option, double widest, bool stacke
     card.height = card.key.height + 1.8 * em_;
     if (option.label.empty())
         return card;
-    Layout label = lay(option.label, 1, false, widest - (stacked ? around : card.width + beside));
+    Layout label = lay(option.label, 1, false, widest - (stacked ? around : card.width + beside),
+                       option.language.empty() ? script_ : Script{option.language});
     pango_layout_set_wrap(label.get(), breaksWords ? PANGO_WRAP_WORD_CHAR : PANGO_WRAP_WORD);
     if (stacked)
         pango_layout_set_alignment(label.get(), PANGO_ALIGN_CENTER);
@@ -269,8 +328,11 @@ void Setter::drawCard(const Card& card, double x, double width) const {
     const Block &key = card.key, &label = card.label;
     const double capWidth = std::max(key.width, em_) + em_, cap = capHeight(card);
     const double centre = x + width / 2;
-    const double left =
-        std::round(card.stacked ? centre - capWidth / 2 : x + (width - card.width) / 2 + 0.8 * em_);
+    const double inner = x + (width - card.width) / 2 + 0.8 * em_,
+                 outer = x + (width + card.width) / 2 - 0.8 * em_ - capWidth;
+    const double left = std::round(card.stacked ? centre - capWidth / 2
+                                   : mirrored_  ? outer
+                                                : inner);
     const double middle = card.stacked ? y + 0.6 * em_ + cap / 2 : y + card.height / 2;
     ink(writing);
     cairo_set_line_width(cairo_, 2);
@@ -282,7 +344,8 @@ void Setter::drawCard(const Card& card, double x, double width) const {
     if (card.stacked)
         put(label, centre - label.width / 2, middle + cap / 2 + 0.5 * em_);
     else
-        put(label, left + capWidth + 0.8 * em_, middle - label.height / 2);
+        put(label, mirrored_ ? left - 0.8 * em_ - label.width : left + capWidth + 0.8 * em_,
+            middle - label.height / 2);
 }
 
 std::vector<Setter::Card> Setter::cards(const std::vector<Page::Option>& options, double widest,
@@ -293,10 +356,10 @@ std::vector<Setter::Card> Setter::cards(const std::vector<Page::Option>& options
     return cards;
 }
 
-// Side by side, of one size, centred: the first image's option is the left one, as its arrow key
-// is, whichever way the words run. The labels of many options stand below their keys where they
-// would be broken beside them.
-std::vector<Box> Setter::options(const std::vector<Page::Option>& options) {
+// Side by side, of one size, centred; the first is where reading begins. But the first of images
+// that stand beside each other is the left one on any page, and so is its option. The labels of
+// many options stand below their keys where they would be broken beside them.
+std::vector<Box> Setter::options(const std::vector<Page::Option>& options, bool ofImages) {
     constexpr std::size_t many = 4;
     const double count = static_cast<double>(options.size());
     double space = 1.6 * em_;
@@ -316,7 +379,10 @@ std::vector<Box> Setter::options(const std::vector<Page::Option>& options) {
         height = std::max(height, card.height);
     }
     tooWide |= width > widest();
+    const bool fromRight = mirrored_ && !ofImages;
     double x = std::round((width_ - count * width - (count - 1) * space) / 2);
+    if (fromRight)
+        x += (count - 1) * (width + space);
     std::vector<Box> boxes;
     for (Card& card : row) {
         card.height = height;
@@ -324,9 +390,33 @@ std::vector<Box> Setter::options(const std::vector<Page::Option>& options) {
             drawCard(card, x, width);
         boxes.push_back({static_cast<int>(x), static_cast<int>(y), static_cast<int>(width),
                          static_cast<int>(height)});
-        x += width + space;
+        x += fromRight ? -width - space : width + space;
     }
     y += height;
+    return boxes;
+}
+
+// All as wide as the widest, their keys in one column.
+std::vector<Box> Setter::list(const std::vector<Page::Option>& options) {
+    std::vector<Card> column = cards(options, width_ - 2 * em_, false);
+    double width = 0, height = 0;
+    for (const Card& card : column) {
+        width = std::max(width, card.width);
+        height = std::max(height, card.height);
+    }
+    tooWide |= width > width_ - 2 * em_;
+    const double x = std::round((width_ - width) / 2);
+    std::vector<Box> boxes;
+    for (Card& card : column) {
+        y += boxes.empty() ? 0 : 0.5 * em_;
+        card.width = width;
+        card.height = height;
+        if (drawing)
+            drawCard(card, x, width);
+        boxes.push_back({static_cast<int>(x), static_cast<int>(y), static_cast<int>(width),
+                         static_cast<int>(height)});
+        y += height;
+    }
     return boxes;
 }
 

@@ -14,7 +14,8 @@ constexpr double again = 0.1; // seconds until it looks whether the window has t
 
 VisualObserver::VisualObserver(Presenter& presenter, const Protocol& protocol, std::uint64_t seed,
                                const std::string& participant)
-    : presenter_(presenter), participant_(protocol, seed, participant) {
+    : presenter_(presenter), participant_(protocol, seed, participant),
+      go_(static_cast<gl::Key>(protocol.keys.go.front())) {
     presenter_.whileWaiting([this] { return attend(); });
 }
 
@@ -40,6 +41,11 @@ void VisualObserver::thank() {
     presenter_.thank();
 }
 
+void VisualObserver::decline() {
+    turnPage();
+    presenter_.decline();
+}
+
 void VisualObserver::turnPage() {
     trial_ = nullptr;
     turn_ = 0;
@@ -49,6 +55,12 @@ void VisualObserver::prepare(const Upcoming& trial) {
     presenter_.prepare(trial);
     participant_.prepare(trial);
     coming_ = 0; // what ended the page before is of no interest
+}
+
+void VisualObserver::preparePage(const Phase& page) {
+    presenter_.preparePage(page);
+    participant_.preparePage(page);
+    coming_ = 0;
 }
 
 double VisualObserver::show(const TrialMachine& trial) {
@@ -84,7 +96,7 @@ double VisualObserver::attend() {
     if (trial_)
         act(*participant_.take(now));
     else
-        fingers_.tap(gl::Key::space);
+        fingers_.tap(go_);
     turn_ = never;
     return never;
 }

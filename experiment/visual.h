@@ -23,12 +23,17 @@ class VisualObserver : public Observer {
 
     Refresh refresh() const override { return presenter_.refresh(); }
     void describe(nlohmann::ordered_json& sidecar) const override;
+    void describeOutcome(nlohmann::ordered_json& sidecar) const override {
+        presenter_.describeOutcome(sidecar);
+    }
     bool instruct() override;
     void prepare(const Upcoming& trial) override;
+    void preparePage(const Phase& page) override;
     double show(const TrialMachine& trial) override;
     const std::vector<Event>& events(bool wait) override;
     bool rest() override;
     void thank() override;
+    void decline() override;
 
   private:
     double attend();
@@ -37,6 +42,7 @@ class VisualObserver : public Observer {
 
     Presenter& presenter_;
     SimulatedParticipant participant_;
+    gl::Key go_; // ends a page
     gl::Fingers fingers_;
     const TrialMachine* trial_ = nullptr; // null on pages outside a trial
     double turn_ = 0; // when it presses Space there; 0: not seen yet; infinity: it has

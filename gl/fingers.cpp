@@ -34,6 +34,11 @@ unsigned long symbolOf(Key key) {
     case Key::up:
         return XK_Up;
     default:
+        if (key >= Key::keypadZero && key <= Key::keypadNine)
+            return XK_KP_0 + static_cast<unsigned long>(key) -
+                   static_cast<unsigned long>(Key::keypadZero);
+        if (key >= Key::a && key <= Key::z) // the letter without shift
+            return static_cast<unsigned long>(key) - 'A' + 'a';
         return static_cast<unsigned long>(key); // ASCII, as X has it
     }
 }

@@ -11,6 +11,8 @@ enum class Key : int {
     one = 49, // and so on to nine
     two = 50,
     nine = 57,
+    a = 65, // and so on to z
+    z = 90,
     escape = 256,
     enter = 257,
     tab = 258,
@@ -24,17 +26,25 @@ enum class Key : int {
     keypadTwo = 322,
     keypadNine = 329,
     keypadEnter = 335,
+    // Buttons of a gamepad; GLFW has no numbers for them among keys. Its directional pad arrives as
+    // the arrows, "back" as Escape and "start" as Enter.
+    padA = 1000,
+    padB = 1001,
+    padX = 1002,
+    padY = 1003,
+    padLeft = 1004, // the buttons at the shoulders
+    padRight = 1005,
 };
 
 // What a window was told, stamped when it arrived (seconds on the window's clock).
 struct Input {
-    enum class Kind { press, release, text, click, focusLost, focusGained, exposed, close };
+    enum class Kind { press, release, text, click, drag, focusLost, focusGained, exposed, close };
 
     Kind kind = Kind::press;
     double time = 0;
     Key key{};                // press, release; the system's auto-repeat never arrives
     std::uint32_t symbol = 0; // text: a Unicode code point
-    int x = 0, y = 0;         // click: framebuffer pixels from the top left
+    int x = 0, y = 0;         // click, drag: framebuffer pixels from the top left
 };
 
 } // namespace obscura::gl

@@ -164,14 +164,11 @@ void Window::listen() {
     glfwSetMouseButtonCallback(window_.get(), [](GLFWwindow* window, int button, int action, int) {
         if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS)
             return;
-        double x = 0, y = 0;
-        glfwGetCursorPos(window, &x, &y);
-        int width = 1, height = 1;
-        glfwGetWindowSize(window, &width, &height);
-        Input input = self(window).stamped(Input::Kind::click);
-        input.x = static_cast<int>(x * self(window).width_ / width);
-        input.y = static_cast<int>(y * self(window).height_ / height);
-        self(window).inputs_.push_back(input);
+        self(window).inputs_.push_back(self(window).stampedAtCursor(Input::Kind::click));
+    });
+    glfwSetCursorPosCallback(window_.get(), [](GLFWwindow* window, double, double) {
+        if (glfwGetMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS)
+            self(window).inputs_.push_back(self(window).stampedAtCursor(Input::Kind::drag));
     });
     glfwSetWindowFocusCallback(window_.get(), [](GLFWwindow* window, int focused) {
         self(window).inputs_.push_back(
@@ -209,6 +206,17 @@ Input Window::stamped(Input::Kind kind) const {
     Input input;
     input.kind = kind;
     input.time = now();
+    return input;
+}
+
+Input Window::stampedAtCursor(Input::Kind kind) const {
+    double x = 0, y = 0;
+    glfwGetCursorPos(window_.get(), &x, &y);
+    int width = 1, height = 1;
+    glfwGetWindowSize(window_.get(), &width, &height);
+    Input input = stamped(kind);
+    input.x = static_cast<int>(x * width_ / width);
+    input.y = static_cast<int>(y * height_ / height);
     return input;
 }
 
@@ -286,6 +294,7 @@ Onset Window::awaitOnset() const {
 
 const std::vector<Input>& Window::poll() {
     glfwPollEvents();
+    gamepads_.look(now(), inputs_);
     interrupt_();
     checkScreen();
     return take();
@@ -293,9 +302,13 @@ const std::vector<Input>& Window::poll() {
 
 const std::vector<Input>& Window::wait(double atMost) {
     constexpr double interval = 0.1, least = 1e-4; // seconds between calls of interrupt_
+    constexpr double look = 0.001;                 // and at a gamepad
     const double end = now() + atMost;
+    gamepads_.look(now(), inputs_);
     for (interrupt_(); inputs_.empty() && now() < end; interrupt_()) {
-        glfwWaitEventsTimeout(std::clamp(end - now(), least, interval));
+        const double pause = gamepads_.present() ? look : interval;
+        glfwWaitEventsTimeout(std::clamp(end - now(), least, pause));
+        gamepads_.look(now(), inputs_);
         checkScreen();
     }
     return take();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/context.h"
+#include "gl/gamepad.h"
 #include "gl/input.h"
 #include "gl/picture.h"
 #include "gl/sleep_watch.h"
@@ -91,7 +92,8 @@ class Window {
 
     // What has arrived, without waiting or allocating; valid until the next call.
     const std::vector<Input>& poll();
-    // The same, but sleeps until something arrives, or for so many seconds.
+    // The same, but sleeps until something arrives, or for so many seconds; where there is a
+    // gamepad, which has no events, for a millisecond at a time.
     const std::vector<Input>& wait(double atMost = std::numeric_limits<double>::infinity());
     void showCursor(bool visible);
     bool focused() const; // whether the keyboard is ours
@@ -114,6 +116,7 @@ class Window {
     void listen();
     void checkScreen();
     Input stamped(Input::Kind kind) const;
+    Input stampedAtCursor(Input::Kind kind) const;
     const std::vector<Input>& take();
     Onset awaitOnset() const;
 
@@ -124,6 +127,7 @@ class Window {
     std::unique_ptr<GLFWwindow, Destroy> window_;
     int width_ = 0, height_ = 0;
     std::vector<Input> inputs_, taken_;
+    Gamepads gamepads_;
     void (*interrupt_)();
     SleepWatch sleep_;
     std::string lost_; // why nothing can be shown any more; "" for nothing

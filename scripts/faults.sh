@@ -160,9 +160,18 @@ fault phases-out-of-the-design protocols/reader/design.cpp \
 fault votes-swapped analysis/votes.cpp \
     's|choseB \? votes\.b : votes\.a|choseB ? votes.a : votes.b|' \
     analysis_test 'TallyVotes.*'
-fault one-sided analysis/frequencies.cpp \
-    's|2 \* boost::math::cdf\(guessing|boost::math::cdf(guessing|' \
-    analysis_test 'Frequencies/Thesis.*'
+fault one-sided inference/counts.cpp \
+    's|2 \* binomialLower\(std|binomialLower(std|' \
+    inference_test 'Frequencies/Thesis.*'
+fault one-minus-cdf inference/tails.cpp \
+    's|cdf\(complement\(boost::math::chi_squared\(df\), statistic\)\)|1 - cdf(boost::math::chi_squared(df), statistic)|' \
+    inference_test 'Tails.*'
+fault first-tooth inference/power.cpp \
+    's|10 \+ 4 / std::abs\(share - 0\.5\)|0 * share|' \
+    inference_test 'SampleSize.*'
+fault rounded-scores inference/paired.cpp \
+    's|score - scores\[origin\]|score - 0 * scores[origin]|' \
+    inference_test 'PairedTrend.*'
 fault other-images analysis/votes.cpp \
     's|\(aFirst \? pair->a : pair->b\)|(aFirst ? pair->b : pair->a)|' \
     analysis_test 'TallyWithStimuli.*'

@@ -10,9 +10,9 @@ log=$build/$program.log
 packages=(
     g++ cmake ninja-build pkg-config git ccache
     libglfw3-dev libglm-dev libopenimageio-dev libtinygltf-dev libepoxy-dev libegl-dev libgl-dev
-    libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libboost-dev libssl-dev
+    libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libboost-dev libeigen3-dev libssl-dev
     libpango1.0-dev libcairo2-dev libgtest-dev libgmock-dev libxtst-dev libxrandr-dev libx11-dev libembree-dev libnlopt-cxx-dev
-    libgl1-mesa-dri libegl1 libgl1 fonts-dejavu-core gnuplot-nox xvfb xauth
+    libgl1-mesa-dri libegl1 libgl1 fonts-dejavu-core fonts-wqy-microhei gnuplot-nox xvfb xauth
 )
 
 # What the sanitized build needs besides.

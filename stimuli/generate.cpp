@@ -4,6 +4,7 @@
 #include "base/version.h"
 #include "image/canvas.h"
 #include "protocols/reader/design.h"
+#include "stimuli/boost.h"
 #include "stimuli/contact_sheet.h"
 #include "stimuli/plan.h"
 
@@ -47,7 +48,7 @@ std::map<std::string, ImageRecord> earlierRecords(const fs::path& folder,
                         (folder / name).string(), manifest.schemaVersion));
                 for (const ConditionRecord& condition : manifest.conditions)
                     for (const ImageRecord& image : condition.images)
-                        records[image.image.path] = image;
+                        records[renderedOf(image).path] = unboosted(image);
             } catch (const Error&) {
             }
     return records;
@@ -321,11 +322,13 @@ void Verification::rendering(const ConditionRecord& pair, const ImageRecord& rec
         mustBe(file,
                readImage8(manifest_.folder / file.path, image.channels).pixels == image.pixels);
     };
-    png(record.image, now.image);
+    png(renderedOf(record), now.image);
     const auto images = exrsOf(now);
     for (const auto& [kind, file] : record.layers)
         if (kind == "ao")
             png(file, quantised(now.visibility));
+        else if (record.derived && &file == &renderedOf(record))
+            continue;
         else if (const auto image = images.find(kind); image == images.end())
             mustBe(file, false);
         else
@@ -333,6 +336,8 @@ void Verification::rendering(const ConditionRecord& pair, const ImageRecord& rec
                                           channelNames(image->second->channels)),
                                   *image->second));
     mustBe(record.image, now.inputsSha256 == record.inputsSha256);
+    if (const std::string fault = faultOfBoost(protocol_, manifest_, pair, record); !fault.empty())
+        throw Error(placeOf(record.image), fmt::format("{}; {}", fault, makeAnew));
     checkMatched(pair, condition(pair).place);
 }
 
@@ -389,6 +394,8 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     result.times = renderer.times();
 
     const double start = seconds();
+    if (protocol.boost)
+        boostImages(protocol, result.manifest);
     const std::vector<Image8> sheets = contactSheets(result.manifest);
     for (std::size_t i = 0; i < sheets.size(); ++i)
         result.manifest.contactSheets.push_back(

@@ -45,8 +45,9 @@ const std::map<std::string, Rooms> allowed = [] {
     room("matching", {"renderer"});
     room("stimuli", {"matching"});
     room("bench", {"matching", "report"});
-    room("experiment", {"gl", "image", "protocols"});
-    room("analysis", {"report", "protocols"});
+    room("inference", {"base"});
+    room("experiment", {"gl", "image", "inference", "protocols"});
+    room("analysis", {"inference", "report", "protocols"});
     return table;
 }();
 

@@ -111,8 +111,27 @@ bool isScientific(std::string_view cell) { return matches(cell, R"(\d([.,]\d+)?E
 
 } // namespace
 
+namespace {
+
+// Letters (one that no number has among them), digits and a few signs: what most names are.
+bool isPlain(std::string_view name) {
+    const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+    return std::all_of(name.begin(), name.end(),
+                       [&](char c) {
+                           return isLetter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_';
+                       }) &&
+           std::any_of(name.begin(), name.end(),
+                       [&](char c) { return isLetter(c) && c != 'e' && c != 'E'; });
+}
+
+} // namespace
+
 std::string foreignByte(std::string_view cell) {
     for (std::size_t at = 0; at < cell.size();) {
+        if (cell[at] >= ' ' && cell[at] <= '~') {
+            ++at;
+            continue;
+        }
         const std::size_t length = characterLength(cell.substr(at));
         const std::string where =
             fmt::format("found the byte 0x{:02X} at byte {} of the cell",
@@ -129,6 +148,8 @@ std::string foreignByte(std::string_view cell) {
 }
 
 std::string strayName(std::string_view name) {
+    if (isPlain(name))
+        return {};
     if (const std::string_view bare = trimmed(name); bare != name)
         return fmt::format("expected \"{}\", found \"{}\", with blanks (perhaps invisible) at its "
                            "ends, which would make another name of it; remove them",

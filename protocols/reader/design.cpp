@@ -83,6 +83,10 @@ json toJson(const Texts& texts) {
     for (const TextKey& key : textKeys())
         words[std::string(key.name)] = texts.*key.text;
     words.update(json(texts.own));
+    if (!texts.language.empty())
+        words["language"] = texts.language;
+    if (!texts.name.empty())
+        words["name"] = texts.name;
     return words;
 }
 
@@ -117,24 +121,27 @@ json toJson(const Ordering& ordering) {
 }
 
 json toJson(const Question& question) {
-    const auto& [name, kind, text, options, images, unsure, lowest, least, most, low, high,
-                 optional, place] = question;
-    return {{"kind", static_cast<int>(kind)},
-            {"text", text},
-            {"options", options},
-            {"images", images},
-            {"unsure", unsure},
-            {"lowest", lowest},
-            {"range", {least, most}},
-            {"ends", {low, high}},
-            {"optional", optional}};
+    const auto& [name, kind, text, options, images, beside, unsure, lowest, least, most, low, high,
+                 optional, endsUnless, place] = question; // `beside` follows from the phases
+    json result = {{"kind", static_cast<int>(kind)},
+                   {"text", text},
+                   {"options", options},
+                   {"images", images},
+                   {"unsure", unsure},
+                   {"lowest", lowest},
+                   {"range", {least, most}},
+                   {"ends", {low, high}},
+                   {"optional", optional}};
+    if (!endsUnless.empty())
+        result["endsUnless"] = endsUnless;
+    return result;
 }
 
 // Lists are kept by name and place, so that what differs is told by name.
 json toJson(const std::vector<Phase>& phases) {
     json result = {{"order", json::array()}};
     for (const Phase& phase : phases) {
-        const auto& [name, images, alternate, grey, text, progress, questions, key, atLeast,
+        const auto& [name, images, alternate, turns, grey, text, progress, questions, key, atLeast,
                      seconds, frames, place] = phase;
         json asked = {{"order", json::array()}};
         for (const Question& question : questions) {
@@ -146,6 +153,8 @@ json toJson(const std::vector<Phase>& phases) {
                         {"text", text},     {"progress", progress},   {"questions", asked},
                         {"key", key},       {"atLeast", atLeast},     {"seconds", seconds},
                         {"frames", frames}};
+        if (static_cast<int>(images.size()) > turns && turns > 1) // at several places
+            result[name]["turns"] = turns;
     }
     return result;
 }
@@ -156,6 +165,16 @@ json toJson(const Trial& trial) {
     if (!given.empty())
         return {{"grey", grey}, {"phases", toJson(given)}, {"roles", order}};
     return {{"mask", mask}, {"grey", grey}, {"minimumView", minimumView}};
+}
+
+// Of the scenes in use.
+json toJson(const Boost& boost, const std::set<std::string>& views) {
+    const auto& [reference, amplify, magnify, crop] = boost;
+    json result = {{"reference", reference}, {"amplify", amplify}, {"magnify", magnify}};
+    for (const auto& [view, corner] : crop)
+        if (views.contains(view))
+            result["crop"][view] = corner;
+    return result;
 }
 
 // Conditions are kept by their ids, because pictures do not depend on their order.
@@ -200,13 +219,32 @@ void split(const std::vector<T>& items, const std::set<std::string>& used, const
         (used.contains(item.name) ? ifUsed : otherwise)[key][item.name] = toJson(item);
 }
 
+json toJson(const ScreenNeeds& needs) {
+    const auto& [distanceCm, degrees, pixelsPerDegree] = needs;
+    json result = {{"distanceCm", distanceCm}};
+    if (degrees)
+        result["degrees"] = *degrees;
+    if (pixelsPerDegree)
+        result["pixelsPerDegree"] = {{"min", (*pixelsPerDegree)[0]},
+                                     {"max", (*pixelsPerDegree)[1]}};
+    return result;
+}
+
+std::vector<std::string> spelt(const std::vector<int>& keys) {
+    std::vector<std::string> names;
+    for (const int key : keys)
+        names.emplace_back(nameOfKey(key));
+    return names;
+}
+
 struct Parts {
     json stimuli, procedure, texts;
 };
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, trial, ordering, words, simulation, path, sha256] = protocol;
+                 conditions, boost, trial, before, after, keys, screen, ordering, words,
+                 translations, simulation, path, sha256] = protocol;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -216,9 +254,21 @@ Parts split(const Protocol& protocol) {
         {"image", {{"width", width}, {"height", height}, {"antialiasing", antialiasing}}},
         {"normals", normalsNames()[static_cast<std::size_t>(normals)]},
         {"conditions", parts.stimuli}};
+    if (boost)
+        result.stimuli["boost"] = toJson(*boost, parts.views);
     result.procedure = {{"trial", toJson(trial)},
                         {"ordering", toJson(ordering)},
                         {"order of conditions", parts.order}};
+    if (screen.distanceCm > 0)
+        result.procedure["screen"] = toJson(screen);
+    if (!(keys == Keys())) // which hand does what
+        result.procedure["keys"] = {
+            {"first", spelt(keys.first)}, {"second", spelt(keys.second)}, {"go", spelt(keys.go)}};
+    // Who takes part, and what they have been asked before: studies that ask nothing keep theirs.
+    if (!before.empty())
+        result.procedure["before"] = toJson(before);
+    if (!after.empty())
+        result.procedure["after"] = toJson(after);
     if (!parts.correct.empty())
         result.procedure["correct answers"] = parts.correct;
     result.texts = {
@@ -232,6 +282,8 @@ Parts split(const Protocol& protocol) {
           {"view", toJson(viewTime)},
           {"decision", toJson(decision)}}},
         {"conditions", parts.simulated}};
+    for (const Texts& translation : translations)
+        result.texts["languages"][translation.language] = toJson(translation);
     split(views, parts.views, "scenes", result.stimuli, result.texts);
     split(levels, parts.levels, "levels", result.stimuli, result.texts);
     split(techniques, parts.techniques, "techniques", result.stimuli, result.texts);

@@ -81,17 +81,29 @@ json toJson(const Recipe& recipe) {
 
 json toJson(const FileRecord& file) { return {{"path", file.path}, {"sha256", file.sha256}}; }
 
+json toJson(const Derivation& derived) {
+    return {{"fromSha256", derived.fromSha256},
+            {"reference", derived.reference},
+            {"referenceSha256", derived.referenceSha256},
+            {"amplify", derived.amplify},
+            {"magnify", derived.magnify},
+            {"crop", derived.crop}};
+}
+
 json toJson(const ImageRecord& image) {
     json layers = json::object();
     for (const auto& [kind, file] : image.layers)
         layers[kind] = toJson(file);
-    return {{"name", image.name},
-            {"recipe", toJson(image.recipe)},
-            {"recipeSha256", image.recipe.sha256()},
-            {"inputsSha256", image.inputsSha256},
-            {"meanOcclusion", image.meanOcclusion},
-            {"image", toJson(image.image)},
-            {"layers", layers}};
+    json result = {{"name", image.name},
+                   {"recipe", toJson(image.recipe)},
+                   {"recipeSha256", image.recipe.sha256()},
+                   {"inputsSha256", image.inputsSha256},
+                   {"meanOcclusion", image.meanOcclusion},
+                   {"image", toJson(image.image)},
+                   {"layers", layers}};
+    if (image.derived)
+        result["derived"] = toJson(*image.derived);
+    return result;
 }
 
 // Reading ------------------------------------------------------------------------------------
@@ -235,6 +247,17 @@ FileRecord readFileRecord(const Node& node) {
     return {node["path"].as<std::string>(), node["sha256"].as<std::string>()};
 }
 
+Derivation readDerivation(const Node& node) {
+    Derivation derived;
+    node["fromSha256"].read(derived.fromSha256);
+    node["reference"].read(derived.reference);
+    node["referenceSha256"].read(derived.referenceSha256);
+    node["amplify"].read(derived.amplify);
+    node["magnify"].read(derived.magnify);
+    node["crop"].read(derived.crop);
+    return derived;
+}
+
 ImageRecord readImageRecord(const Node& node) {
     ImageRecord image;
     node["name"].read(image.name);
@@ -244,6 +267,10 @@ ImageRecord readImageRecord(const Node& node) {
     image.image = readFileRecord(node["image"]);
     for (const auto& [kind, file] : node["layers"].entries())
         image.layers[kind] = readFileRecord(file);
+    if (node.has("derived")) {
+        image.derived = readDerivation(node["derived"]);
+        image.layers["rendered"] = readFileRecord(node["layers"]["rendered"]); // must be there
+    }
     return image;
 }
 

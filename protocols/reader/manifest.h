@@ -2,9 +2,11 @@
 
 #include "protocols/reader/protocol.h"
 
+#include <array>
 #include <deque>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +38,18 @@ struct FileRecord {
     std::string sha256;
 };
 
+// How an image was made of two that were rendered (Boost).
+struct Derivation {
+    std::string fromSha256;      // of the image's own rendering,
+    std::string reference;       // the role from which it differs
+    std::string referenceSha256; // and of that one's
+    double amplify = 1;
+    int magnify = 1;
+    std::array<int, 2> crop{}; // top left corner, pixels
+
+    bool operator==(const Derivation&) const = default;
+};
+
 struct ImageRecord {
     std::string role; // in its condition: "a", "b", "reference"
     std::string name; // of the technique setting: "blizzard24"
@@ -45,6 +59,7 @@ struct ImageRecord {
     double meanOcclusion = 0; // 1 - visibility, averaged over the pixels that show a surface
     FileRecord image;         // 8-bit sRGB PNG
     std::map<std::string, FileRecord> layers; // "ao" always; "linear", "albedo", ... on request
+    std::optional<Derivation> derived;        // then the layer "rendered" is what the recipe gives
 };
 
 struct ConditionRecord {

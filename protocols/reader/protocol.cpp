@@ -1,13 +1,13 @@
 #include "protocols/reader/protocol.h"
 
 #include "base/files.h"
+#include "protocols/reader/languages.h"
 #include "protocols/reader/study_parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 #include <set>
 
 namespace obscura {
@@ -138,14 +138,19 @@ void checkRoles(const Condition& condition, const Protocol& protocol, const Plac
     }
 }
 
-// What the phases show must be there.
+// What the phases show must be there, and what images are boosted against.
 void checkShown(const Condition& condition, const Protocol& protocol, const Place& place) {
-    for (const std::string& role : rolesOf(protocol.trial))
+    std::set<std::string> needed = rolesOf(protocol.trial);
+    if (protocol.boost)
+        needed.insert(protocol.boost->reference);
+    for (const std::string& role : needed)
         if (std::none_of(condition.roles.begin(), condition.roles.end(),
                          [&](const Role& each) { return each.name == role; }))
-            throw Error(place, fmt::format("expected an image \"{}\", which the trial shows, found "
-                                           "none",
-                                           role));
+            throw Error(place,
+                        fmt::format("expected an image \"{}\", which the {}, found none", role,
+                                    rolesOf(protocol.trial).contains(role)
+                                        ? "trial shows"
+                                        : "others are boosted against"));
 }
 
 void parsePair(TomlTable& table, const toml::node& pair, Condition& condition,
@@ -237,33 +242,21 @@ std::vector<Question> questionsOf(const std::vector<Phase>& phases) {
     return questions;
 }
 
-// Braces around anything but the name of a number are a mistake in spelling.
-void checkProgress(const std::string& text, const Place& place) {
-    static const std::regex numbers(R"(\{pairs?\})");
-    if (std::regex_replace(text, numbers, "").find_first_of("{}") != std::string::npos)
-        throw Error(place, fmt::format("expected no braces but those of {{pair}} and {{pairs}}, "
-                                       "found \"{}\"",
-                                       text));
+std::set<std::string> textsOf(const Protocol& protocol) {
+    std::set<std::string> keys = textsOf(phasesOf(protocol.trial));
+    keys.merge(textsOf(protocol.before));
+    keys.merge(textsOf(protocol.after));
+    return keys;
 }
 
-// Every text of the program's own, and those that the trial's phases name besides.
-Texts parseTexts(TomlTable table, std::set<std::string> named) {
-    Texts texts;
-    for (const TextKey& key : textKeys()) {
-        std::string& text = texts.*key.text;
-        const bool isNamed = named.erase(std::string(key.name)) > 0;
-        const bool compulsory = key.compulsory || (isNamed && text.empty());
-        text = table.text(key.name, compulsory ? std::nullopt : std::optional(text));
-        if (const toml::node* node = table.node(key.name))
-            texts.places[std::string(key.name)] = table.placeOf(*node, table.pathOf(key.name));
-    }
-    for (const std::string& key : named) {
-        texts.own[key] = table.text(key);
-        texts.places[key] = table.placeOf(*table.node(key), table.pathOf(key));
-    }
-    table.finish();
-    checkProgress(texts.progress, texts.places["progress"]);
-    return texts;
+// Where another key than Space goes on, the texts that the study has not written name it.
+void nameGo(const Keys& keys, Texts& texts) {
+    if (keys.go.front() == Keys().go.front())
+        return;
+    if (!texts.places.contains("space"))
+        texts.space = capOf(keys.go.front());
+    if (texts.rest == Texts().rest) // translations of it name no key
+        texts.rest = fmt::format("Take a break. Press {} to go on.", texts.space);
 }
 
 ExGaussian parseTime(std::optional<TomlTable> table, ExGaussian fallback) {
@@ -310,12 +303,23 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     includedSha256 = techniques.includedSha256;
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));
+    if (auto boost = root.table("boost"))
+        protocol.boost =
+            parseBoost(std::move(*boost), protocol.width, protocol.height, protocol.views);
     parseConditions(root, protocol);
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
                                           questionsOf(phasesOf(protocol.trial)));
-    protocol.texts = parseTexts(root.requiredTable("texts", "what participants read"),
-                                textsOf(phasesOf(protocol.trial)));
+    if (auto screen = root.table("screen"))
+        protocol.screen = parseScreenNeeds(std::move(*screen));
+    if (auto keys = root.table("keys"))
+        protocol.keys = parseKeys(std::move(*keys));
+    protocol.before = parsePages(root, "before");
+    protocol.after = parsePages(root, "after");
+    parseLanguages(root, textsOf(protocol), protocol);
+    nameGo(protocol.keys, protocol.texts);
+    for (Texts& translation : protocol.translations)
+        nameGo(protocol.keys, translation);
     if (auto simulation = root.table("simulation"))
         protocol.simulation = parseSimulation(std::move(*simulation));
     root.finish();
@@ -344,11 +348,14 @@ std::span<const TextKey> textKeys() {
         {"leaveNote", &Texts::leaveNote},
         {"stay", &Texts::stay},
         {"end", &Texts::end},
+        {"declined", &Texts::declined},
         {"rest", &Texts::rest},
         {"id", &Texts::id},
         {"idNote", &Texts::idNote},
         {"idMalformed", &Texts::idMalformed},
         {"idTaken", &Texts::idTaken},
+        {"rehearsal", &Texts::rehearsal},
+        {"untimed", &Texts::untimed},
         {"resume", &Texts::resume},
         {"otherId", &Texts::otherId},
     };
@@ -365,6 +372,13 @@ const View& Protocol::view(const std::string& wanted) const { return find(views,
 const Level& Protocol::level(const std::string& wanted) const { return find(levels, wanted); }
 const TechniqueSetting& Protocol::technique(const std::string& wanted) const {
     return find(techniques, wanted);
+}
+
+std::vector<const Texts*> Protocol::languages() const {
+    std::vector<const Texts*> all = {&texts};
+    for (const Texts& translation : translations)
+        all.push_back(&translation);
+    return all;
 }
 
 Protocol parseProtocol(const std::string& text, const std::string& file) {

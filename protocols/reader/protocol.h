@@ -1,6 +1,9 @@
 #pragma once
 
+#include "protocols/reader/boost.h"
+#include "protocols/reader/keys.h"
 #include "protocols/reader/ordering.h"
+#include "protocols/reader/screen.h"
 #include "protocols/reader/study.h"
 #include "protocols/reader/trial.h"
 
@@ -43,9 +46,12 @@ struct Condition {
     Place place = {};
 };
 
-// Everything that participants read, UTF-8. A study says what it asks; the rest is English unless
-// it says otherwise, so that a study in another language can translate all of it.
+// Everything that participants read in one language, UTF-8. A study says what it asks; the rest is
+// English unless it says otherwise, so that a study in another language can translate all of it.
 struct Texts {
+    std::string language; // a BCP 47 tag; "" where the protocol does not say
+    std::string name;     // of the language, in itself, for those who choose one
+
     std::string instructions, start, question, first, second, thanks;
     std::string progress = "{pair} / {pairs}";    // above `start`, with the numbers put in
     std::string space = "Space", enter = "Enter"; // the keys' names
@@ -56,18 +62,22 @@ struct Texts {
     std::string unfocused = "The keyboard is elsewhere: click here to go on";
     std::string leave = "End the session?", leaveNote = "Answers given so far are kept.";
     std::string stay = "Continue", end = "End";
+    std::string declined = "The session ends here. Thank you for your time!";
     std::string rest = "Take a break. Press the space bar to go on.";
     std::string id = "Type the participant's pseudonym and press Enter.";
     std::string idNote = "Letters and digits. Escape ends the program.";
     std::string idMalformed = "A pseudonym is 1 to 32 letters (a-z) and digits.";
     std::string idTaken = "There are data of this participant and session. Type another "
                           "pseudonym, or press Escape and start with another --session.";
+    std::string rehearsal = "Rehearsal: answers do not count"; // above every page, and so is
+    std::string untimed = "Untimed display: not suitable for data collection";
     std::string resume = "This session broke off after {pair} of {pairs}. Go on from there?";
     std::string otherId = "Another pseudonym";
 
     std::map<std::string, std::string, std::less<>> own; // texts that the trial's phases name, and
                                                          // that are none of the above
     std::map<std::string, Place, std::less<>> places;    // of the keys that the protocol has
+    std::string table = "texts"; // where the protocol has them; or languages.TAG
 
     // The text of a key, either kind; the parser has made sure that those of the trial exist.
     const std::string& at(std::string_view key) const;
@@ -102,9 +112,14 @@ struct Protocol {
     std::vector<Level> levels;
     std::vector<TechniqueSetting> techniques;
     std::vector<Condition> conditions;
+    std::optional<Boost> boost; // nothing: images are shown as they were rendered
     Trial trial;
+    std::vector<Phase> before, after; // pages around the trials, each shown once
+    Keys keys;
+    ScreenNeeds screen;
     Ordering ordering;
-    Texts texts;
+    Texts texts;                     // of the first language, or the only one
+    std::vector<Texts> translations; // the others, in the order of the file
     Simulation simulation;
 
     std::filesystem::path path; // where it was read; "" when parsed from text
@@ -114,6 +129,8 @@ struct Protocol {
     const View& view(const std::string& name) const;
     const Level& level(const std::string& name) const;
     const TechniqueSetting& technique(const std::string& name) const;
+    // The texts of every language, at least one.
+    std::vector<const Texts*> languages() const;
 };
 
 // `file` is the name that errors give. Throws Error with line and column.

@@ -126,10 +126,12 @@ const Column columns[] = {
      [](const R& r) { return r.chosenPosition == 1 || r.chosenPosition == 2; }},
     {"chosen_technique", "Technique of the chosen image", &R::chosenTechnique,
      "technique_b's value when chose_b is 1, else technique_a's",
-     [](const R& r) { return r.chosenTechnique == (r.choseB ? r.techniqueB : r.techniqueA); }},
+     [](const R& r) { return r.chosenTechnique == (r.choseB ? r.techniqueB : r.techniqueA); }, 1,
+     true},
     {"chose_b", "1 when member b was chosen", &R::choseB,
      "1 when chosen_position and first_is say so, else 0",
-     [](const R& r) { return r.choseB == ((r.chosenPosition == 2) == (r.firstIs == "a")); }},
+     [](const R& r) { return r.choseB == ((r.chosenPosition == 2) == (r.firstIs == "a")); }, 1,
+     true},
     {"interrupted",
      "1 when the window lost the keyboard, or Escape was pressed, while an image or the mask was "
      "on view",
@@ -209,36 +211,75 @@ std::string textFault(const Column& column, const std::string& cell) {
     return fault.empty() && isName(column) ? strayName(cell) : fault;
 }
 
-// `list`: the columns of the file's version.
-std::optional<BadRow> parseRow(const CsvRecord& record, const CsvRecord& header,
-                               std::span<const Column> list, int version, const std::string& file,
-                               Response& response) {
-    // A whole row needs no line feed: editors leave it out. What is torn lacks cells or fails
-    // below.
-    const bool complete = record.fault.empty() && record.cells.size() == list.size();
-    if (!complete)
-        return BadRow{{file, record.line, 0, {}}, faultOf(record, list.size())};
-    if (record.cells == header.cells)
-        return BadRow{{file, record.line, 0, {}},
-                      "the header stands here again, as where two files were joined; remove the "
-                      "line"};
-    for (std::size_t i = 0; i < list.size(); ++i)
-        if (const std::string fault = textFault(list[i], record.cells[i]); !fault.empty())
-            return BadRow{{file, record.line, static_cast<int>(i) + 1, std::string(list[i].name)},
-                          fault};
-    for (const bool check : {false, true}) // every cell first: a check may read several
-        for (std::size_t i = 0; i < list.size(); ++i)
-            if (check ? !list[i].accepts(response) : !parseCell(response, list[i], record.cells[i]))
-                return BadRow{
-                    {file, record.line, static_cast<int>(i) + 1, std::string(list[i].name)},
-                    fmt::format("expected {}, found \"{}\"{}", list[i].expected, record.cells[i],
-                                cellHint(record.cells[i]))};
-    if (response.schemaVersion != version)
-        return BadRow{{file, record.line, 1, "schema_version"},
-                      fmt::format("expected {}, whose columns the header names, found {}", version,
-                                  response.schemaVersion)};
-    return std::nullopt;
-}
+// Parses rows, each in the memory of the one before. Most cells of a row are those of the row above
+// it; what has been checked once is not checked again.
+class RowParser {
+  public:
+    RowParser(CsvRecord header, int version, std::string file)
+        : header_(std::move(header)), list_(responseColumns(version)), version_(version),
+          file_(std::move(file)) {
+        checkHeader(header_, namesOf(list_), file_);
+    }
+
+    // Takes the record's cells.
+    std::optional<BadRow> parse(CsvRecord& record) {
+        std::optional<BadRow> bad = faultIn(record);
+        known_ = !bad;
+        above_.swap(record.cells);
+        return bad;
+    }
+    const Response& response() const { return response_; }
+
+  private:
+    std::optional<BadRow> faultIn(const CsvRecord& record) {
+        // A whole row needs no line feed: editors leave it out. What is torn lacks cells or fails
+        // below.
+        if (!record.fault.empty() || record.cells.size() != list_.size())
+            return BadRow{{file_, record.line, 0, {}}, faultOf(record, list_.size())};
+        if (record.cells == header_.cells)
+            return BadRow{{file_, record.line, 0, {}},
+                          "the header stands here again, as where two files were joined; remove "
+                          "the line"};
+        for (std::size_t i = 0; i < list_.size(); ++i)
+            if (!isAsAbove(record, i))
+                if (const std::string fault = textFault(list_[i], record.cells[i]); !fault.empty())
+                    return BadRow{place(record, i), fault};
+        for (const bool check : {false, true}) // every cell first: a check may read several
+            for (std::size_t i = 0; i < list_.size(); ++i)
+                if (!(check ? passes(record, i) : reads(record, i)))
+                    return BadRow{place(record, i),
+                                  fmt::format("expected {}, found \"{}\"{}", list_[i].expected,
+                                              record.cells[i], cellHint(record.cells[i]))};
+        if (response_.schemaVersion != version_)
+            return BadRow{place(record, 0),
+                          fmt::format("expected {}, whose columns the header names, found {}",
+                                      version_, response_.schemaVersion)};
+        return std::nullopt;
+    }
+
+    Place place(const CsvRecord& record, std::size_t column) const {
+        return {file_, record.line, static_cast<int>(column) + 1, std::string(list_[column].name)};
+    }
+    bool isAsAbove(const CsvRecord& record, std::size_t column) const {
+        return known_ && record.cells[column] == above_[column];
+    }
+    bool reads(const CsvRecord& record, std::size_t column) {
+        return isAsAbove(record, column) ||
+               parseCell(response_, list_[column], record.cells[column]);
+    }
+    bool passes(const CsvRecord& record, std::size_t column) const {
+        return (isAsAbove(record, column) && !list_[column].readsOthers) ||
+               list_[column].accepts(response_);
+    }
+
+    CsvRecord header_;
+    std::vector<Column> list_; // of the file's version
+    int version_;
+    std::string file_;
+    Response response_;
+    std::vector<std::string> above_; // cells of the row above, if
+    bool known_ = false;             // it was well
+};
 
 } // namespace
 
@@ -265,41 +306,50 @@ std::string responseLine(const Response& response) {
     return line + "\n";
 }
 
-ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
+ResponseRows eachResponse(const std::filesystem::path& path, bool lenient,
+                          const std::function<void(const Response&, int line)>& take) {
     const std::string file = path.string();
-    const std::string content = readFile(path);
-    checkIsCsv(content, file);
-    std::vector<CsvRecord> records = splitCsv(content);
-    std::erase_if(records, isBlank);
-    ResponseFile result;
+    ResponseRows result;
     const auto reject = [&](const Place& place, const std::string& message) {
         if (!lenient)
             throw Error(place, message + "; --lenient skips it");
         result.bad.push_back({place, message});
     };
-    if (records.empty() || !records.front().ended) {
+    CsvReader reader(path);
+    CsvRecord record;
+    bool found = reader.next(record);
+    while (found && isBlank(record))
+        found = reader.next(record);
+    if (!found || !record.ended) {
         reject({file, 0, 0, {}}, "expected a header line; the file ends before that line does");
         return result;
     }
-    result.version = versionOf(records.front());
-    if (const auto& names = records.front().cells;
-        std::count(names.begin(), names.end(), "votes_a"))
-        throw Error({file, records.front().line, 0, "votes_a"},
+    result.version = versionOf(record);
+    if (std::count(record.cells.begin(), record.cells.end(), "votes_a"))
+        throw Error({file, record.line, 0, "votes_a"},
                     "expected the rows of participants, found a table of counted votes; give it as "
                     "--counts FILE");
-    const std::vector<Column> list = responseColumns(result.version);
-    checkHeader(records.front(), namesOf(list), file);
-    for (const CsvRecord& record : std::span(records).subspan(1)) {
-        Response response;
-        if (const auto bad =
-                parseRow(record, records.front(), list, result.version, file, response)) {
-            reject(bad->place, bad->message);
+    RowParser parser(record, result.version, file);
+    while (reader.next(record)) {
+        if (isBlank(record))
             continue;
-        }
-        result.rows.push_back(std::move(response));
-        result.lines.push_back(record.line);
+        const int line = record.line;
+        if (const auto bad = parser.parse(record))
+            reject(bad->place, bad->message);
+        else
+            take(parser.response(), line);
     }
     return result;
+}
+
+ResponseFile readResponses(const std::filesystem::path& path, bool lenient) {
+    ResponseFile file;
+    static_cast<ResponseRows&>(file) =
+        eachResponse(path, lenient, [&](const Response& response, int line) {
+            file.rows.push_back(response);
+            file.lines.push_back(line);
+        });
+    return file;
 }
 
 } // namespace obscura

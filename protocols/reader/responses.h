@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -53,7 +54,8 @@ struct Column {
     std::string_view expected; // "text", "a whole number >= 1", "a or b": checked, and quoted
                                // in errors
     bool (*accepts)(const Response&);
-    int since = 1; // version of the list that brought the column
+    int since = 1;            // version of the list that brought the column
+    bool readsOthers = false; // `accepts` depends on other columns, too
 };
 
 // In the order of the file; of an earlier version, those that it had.
@@ -70,11 +72,13 @@ struct BadRow {
     std::string message;
 };
 
-struct ResponseFile {
-    int version = 2; // of its list of columns
+struct ResponseRows {
+    int version = 2; // of the file's list of columns
+    std::vector<BadRow> bad;
+};
+struct ResponseFile : ResponseRows {
     std::vector<Response> rows;
     std::vector<int> lines; // of each row, from 1 (the header)
-    std::vector<BadRow> bad;
 };
 
 // Reads one participant's CSV and checks every row against the columns. A missing or unknown column
@@ -84,5 +88,10 @@ struct ResponseFile {
 // (torn writes). Blank lines are no rows. A place's column is the number of the cell, as a
 // spreadsheet shows it.
 ResponseFile readResponses(const std::filesystem::path& path, bool lenient);
+
+// The same, but each row is given to `take`, in the memory of the one before: for files of any
+// size.
+ResponseRows eachResponse(const std::filesystem::path& path, bool lenient,
+                          const std::function<void(const Response&, int line)>& take);
 
 } // namespace obscura

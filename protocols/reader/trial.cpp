@@ -37,6 +37,21 @@ void parseRange(TomlTable& table, Question& question) {
                                                        question.least, question.most));
 }
 
+void parseEndsUnless(TomlTable& table, Question& question) {
+    for (PlacedText& option : table.texts("endsUnless", "options, such as [\"agree\"]")) {
+        if (std::find(question.options.begin(), question.options.end(), option.text) ==
+            question.options.end())
+            throw Error(option.place,
+                        fmt::format("expected one of the question's options, found "
+                                    "\"{}\"{}",
+                                    option.text, suggestion(option.text, question.options)));
+        question.endsUnless.push_back(std::move(option.text));
+    }
+    if (!question.endsUnless.empty() && question.optional)
+        throw Error(table.placeOf("optional"), "expected no \"optional\" where \"endsUnless\" asks "
+                                               "for an answer");
+}
+
 Question parseQuestion(TomlTable table) {
     using Kind = Question::Kind;
     Question question;
@@ -46,8 +61,10 @@ Question parseQuestion(TomlTable table) {
     question.kind = static_cast<Kind>(table.choice("kind", kinds, 0));
     question.text = table.text("text", "");
     question.optional = table.flag("optional", false);
-    if (question.kind == Kind::choice || question.kind == Kind::scale)
+    if (question.kind == Kind::choice || question.kind == Kind::scale) {
         parseOptions(table, question);
+        parseEndsUnless(table, question);
+    }
     if (question.kind == Kind::choice) {
         question.images = table.flag("images", false);
         question.unsure = table.text("unsure", "");
@@ -76,13 +93,29 @@ std::string imageName(const TomlTable& table, const toml::node& node, std::strin
                             TomlTable::spell(node)));
 }
 
-std::vector<std::string> parseImages(TomlTable& table) {
-    std::vector<std::string> images;
+// What a place of `images` has in turn: adds the images, and returns how many.
+int parsePlace(const TomlTable& table, const toml::node& node, std::vector<std::string>& images) {
+    const toml::array* turns = node.as_array();
+    if (!turns) {
+        images.push_back(imageName(table, node, "images"));
+        return 1;
+    }
+    if (turns->size() < 2)
+        throw Error(table.placeOf(node, table.pathOf("images")),
+                    fmt::format("expected two images or more in turn at a place, found {}",
+                                TomlTable::spell(node)));
+    for (const toml::node& image : *turns)
+        images.push_back(imageName(table, image, "images"));
+    return static_cast<int>(turns->size());
+}
+
+void parseImages(TomlTable& table, Phase& phase) {
+    std::vector<std::string>& images = phase.images;
     if (const toml::node* image = table.node("image"))
         images.push_back(imageName(table, *image, "image"));
     const toml::node* several = table.node("images");
     if (!several)
-        return images;
+        return;
     const toml::array* list = several->as_array();
     if (!list || list->size() < 2 || !images.empty())
         throw Error(table.placeOf("images"),
@@ -90,8 +123,22 @@ std::vector<std::string> parseImages(TomlTable& table) {
                                 "{}",
                                 TomlTable::spell(*several)));
     for (const toml::node& node : *list)
-        images.push_back(imageName(table, node, "images"));
-    return images;
+        if (const int turns = parsePlace(table, node, images); &node == &list->front())
+            phase.turns = turns;
+        else if (turns != phase.turns)
+            throw Error(table.placeOf(node, table.pathOf("images")),
+                        fmt::format("expected as many images in turn at each place, found {} and "
+                                    "{}",
+                                    phase.turns, turns));
+}
+
+void parseAlternation(TomlTable& table, Phase& phase) {
+    phase.alternate = table.number("alternate", 0.001, 60, phase.alternate);
+    if (phase.alternate == 0 && phase.turns != 1)
+        throw Error(table.placeOf("images"), "expected \"alternate\", the seconds for which each "
+                                             "image of a place is shown in turn");
+    if (phase.alternate > 0 && phase.turns == 1) // all at one place
+        phase.turns = std::max(static_cast<int>(phase.images.size()), 1);
 }
 
 void parseEnd(TomlTable& table, Phase& phase) {
@@ -118,7 +165,10 @@ void checkShows(const TomlTable& table, const Phase& phase) {
                                                "\"text\" and \"questions\" (which images may stand "
                                                "beside), found {}",
                                                shown == 0 ? "none" : "several"));
-    if (phase.alternate > 0 && (phase.images.size() < 2 || !phase.counted()))
+    if (phase.alternate > 0 && !phase.questions.empty())
+        throw Error(table.placeOf("alternate"),
+                    "expected no questions beside images that alternate; ask in the next phase");
+    if (phase.alternate > 0 && (phase.turns < 2 || !phase.counted()))
         throw Error(table.placeOf("alternate"),
                     "expected two images or more and \"seconds\" or \"frames\": each change is one "
                     "of counted refreshes");
@@ -129,8 +179,8 @@ Phase parsePhase(TomlTable table) {
     phase.place = table.place();
     phase.name = table.text("name");
     checkName(table, "name", phase.name, "-", " and hyphens");
-    phase.images = parseImages(table);
-    phase.alternate = table.number("alternate", 0.001, 60, phase.alternate);
+    parseImages(table, phase);
+    parseAlternation(table, phase);
     phase.grey = table.integer("grey", 0, 255, phase.grey);
     phase.text = table.text("text", "");
     phase.progress = table.flag("progress", phase.progress);
@@ -148,16 +198,35 @@ void mustBeNew(std::set<std::string>& names, const std::string& name, const Plac
         throw Error(place, fmt::format("expected a new name, found \"{}\" again", name));
 }
 
-std::vector<Phase> parsePhases(TomlTable& trial) {
+void noteBeside(std::vector<Phase>& phases) {
+    const bool beside = std::any_of(phases.begin(), phases.end(), [](const Phase& phase) {
+        return static_cast<int>(phase.images.size()) > phase.turns;
+    });
+    for (Phase& phase : phases)
+        for (Question& question : phase.questions)
+            question.beside = question.images && beside;
+}
+
+std::vector<Phase> parsePhases(TomlTable& owner, std::string_view key, std::string_view expected) {
     std::vector<Phase> phases;
     std::set<std::string> names, answers;
-    for (TomlTable& table : trial.list("phases", "[[trial.phases]]")) {
+    for (TomlTable& table : owner.list(key, expected)) {
         phases.push_back(parsePhase(std::move(table)));
         mustBeNew(names, phases.back().name, phases.back().place);
         for (const Question& question : phases.back().questions)
             mustBeNew(answers, question.name, question.place);
     }
+    noteBeside(phases);
     return phases;
+}
+
+// What belongs around the trials is not asked in each of them.
+void checkInTrial(const std::vector<Phase>& phases) {
+    for (const Phase& phase : phases)
+        for (const Question& question : phase.questions)
+            if (!question.endsUnless.empty())
+                throw Error(question.place,
+                            "expected \"endsUnless\" only in questions of [[before]]");
 }
 
 bool isPlace(const std::string& image) {
@@ -184,6 +253,17 @@ void parseOrder(TomlTable& table, Trial& trial) {
 }
 
 } // namespace
+
+bool admits(const Question& question, const std::string& value) {
+    if (question.endsUnless.empty())
+        return true;
+    const int lowest = question.kind == Question::Kind::scale ? question.lowest : 1;
+    for (std::size_t i = 0; i < question.options.size(); ++i)
+        if (value == fmt::format("{}", lowest + static_cast<int>(i)))
+            return std::find(question.endsUnless.begin(), question.endsUnless.end(),
+                             question.options[i]) != question.endsUnless.end();
+    return false;
+}
 
 std::string nameOf(Question::Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
 
@@ -243,7 +323,8 @@ Trial parseTrial(TomlTable table) {
     Trial trial;
     trial.grey = table.integer("grey", 0, 255, trial.grey);
     if (table.has("phases")) {
-        trial.given = parsePhases(table);
+        trial.given = parsePhases(table, "phases", "[[trial.phases]]");
+        checkInTrial(trial.given);
         parseOrder(table, trial);
     } else {
         trial.mask = table.number("mask", 0.1, 60, trial.mask);
@@ -251,6 +332,32 @@ Trial parseTrial(TomlTable table) {
     }
     table.finish();
     return trial;
+}
+
+namespace {
+
+void checkPage(const Phase& page, bool before) {
+    if (page.text.empty() && page.questions.empty())
+        throw Error(page.place, "expected \"text\" or \"questions\"; grey is for trials");
+    if (!page.images.empty() || page.progress)
+        throw Error(page.place, "expected no images and no \"progress\" outside trials");
+    for (const Question& question : page.questions) {
+        if (question.images || question.kind == Question::Kind::rank)
+            throw Error(question.place, "expected no question about images outside trials");
+        if (!before && !question.endsUnless.empty())
+            throw Error(question.place, "expected \"endsUnless\" only in questions of [[before]]");
+    }
+}
+
+} // namespace
+
+std::vector<Phase> parsePages(TomlTable& root, std::string_view key) {
+    if (!root.has(key))
+        return {};
+    std::vector<Phase> pages = parsePhases(root, key, "pages of text or questions");
+    for (const Phase& page : pages)
+        checkPage(page, key == "before");
+    return pages;
 }
 
 } // namespace obscura

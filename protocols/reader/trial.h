@@ -4,6 +4,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -20,14 +21,21 @@ struct Question {
     Kind kind = Kind::choice;
     std::string text;                 // what stands above it; "" for nothing
     std::vector<std::string> options; // of choice and scale
-    bool images = false;              // choice: option n is the n-th image of the trial's order
+    bool images = false;              // choice: option n is the n-th image of the trial's order,
+    bool beside = false;              // and the trial shows images beside each other
     std::string unsure;               // choice: one option more, recorded as "unsure"; "" for none
     int lowest = 1;                   // scale: the number of its first option
     double least = 0, most = 100;     // slider and number
     std::string low, high;            // slider: what stands at its ends
     bool optional = false;            // may be left open
+    // choice and scale, before the trials: options, of which one must be chosen for the session to
+    // go on, as in a consent; empty: any
+    std::vector<std::string> endsUnless;
     Place place;
 };
+
+// Whether an answer as it is recorded (experiment/form.h) lets the session go on.
+bool admits(const Question& question, const std::string& value);
 
 std::string nameOf(Question::Kind kind); // "choice", as protocols spell it
 
@@ -36,7 +44,10 @@ std::string nameOf(Question::Kind kind); // "choice", as protocols spell it
 struct Phase {
     std::string name;                // unique in its trial
     std::vector<std::string> images; // one, or several beside each other
-    double alternate = 0;  // seconds; > 0: the images in turn at one place, each for so long
+    // Seconds; > 0: at each place `turns` images in turn, each for so long, at all places at once;
+    // images[i * turns] is the first of the i-th place.
+    double alternate = 0;
+    int turns = 1;
     int grey = -1;         // 0 ... 255: nothing but this; -1: something else is shown
     std::string text;      // a page with this text; "" for none
     bool progress = false; // above the text, how far the participant is
@@ -81,5 +92,9 @@ std::set<std::string> textsOf(const std::vector<Phase>& phases);
 // Throws Error for a trial that cannot run to its end: a phase that nothing ends, that shows
 // nothing or several things at once, names that stand twice.
 Trial parseTrial(TomlTable table);
+
+// The pages that are shown once, before the first trial (`key` is "before") or after the last
+// ("after"): phases of text and of questions, without images. None where the table has no such key.
+std::vector<Phase> parsePages(TomlTable& root, std::string_view key);
 
 } // namespace obscura

@@ -1,6 +1,10 @@
 #pragma once
 
+#include "protocols/reader/responses.h"
+
+#include <filesystem>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -15,8 +19,8 @@ struct TrialKey {
     std::string studyId, participantId, sessionId;
     bool simulated = false, rehearsal = false;
     int slotId = 0;
-    int trialIndex = 0;             // from 1
-    std::string trialKind = "main"; // practice, main, catch or break
+    int trialIndex = 0;             // from 1; 0 for the pages around the trials
+    std::string trialKind = "main"; // practice, main, catch, or for those pages before or after
     int repeatIndex = 1, block = 1; // from 1
     std::string conditionId, level, scene, hypothesis;
     std::string roles;      // by place: "b>a"
@@ -46,9 +50,27 @@ struct AnswerRow {
     std::string appVersion, gitCommit, protocolSha256, designSha256, machineId, wallTimeUtc;
 };
 
+// Column by column, in the order of the file: what it means, and what may stand in it.
+struct TableColumn {
+    std::string name, description, expected;
+};
+std::vector<TableColumn> phaseColumns();
+std::vector<TableColumn> answerColumns();
+
 std::string phaseHeader();
 std::string phaseLine(const PhaseRow& row);
 std::string answerHeader();
 std::string answerLine(const AnswerRow& row);
+
+template <typename Row>
+struct TrialTable {
+    std::vector<Row> rows;
+    std::vector<int> lines; // of each row, from 1 (the header)
+    std::vector<BadRow> bad;
+};
+
+// Read one session's table and check each cell. Errors and `lenient` are those of readResponses.
+TrialTable<PhaseRow> readPhases(const std::filesystem::path& path, bool lenient);
+TrialTable<AnswerRow> readAnswers(const std::filesystem::path& path, bool lenient);
 
 } // namespace obscura

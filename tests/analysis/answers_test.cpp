@@ -35,8 +35,8 @@ TEST_F(CollectAnswers, ReadsADataFolderInTheOrderOfFileNames) {
     const Answers answers = collect();
     ASSERT_EQ(answers.counted.size(), 6u);
     EXPECT_EQ(answers.files, 3);
-    EXPECT_EQ(answers.counted[5].row.participantId, "P03");
-    EXPECT_EQ(answers.counted[5].place.line, 3);
+    EXPECT_EQ(answers.counted[5].row.participantId.text(), "P03");
+    EXPECT_EQ(answers.counted[5].line, 3);
 }
 
 TEST_F(CollectAnswers, TakesAFileOnceHoweverItIsGiven) {
@@ -147,12 +147,14 @@ TEST_F(CollectAnswers, NeverCountsRehearsals) {
 TEST_F(CollectAnswers, RefusesARowReadTwice) {
     writeRows(folder_ / "a.csv", {sampleResponse(1, "c1", true)});
     writeRows(folder_ / "copy of a.csv", {sampleResponse(1, "c1", true)});
-    EXPECT_EQ(error(), file("copy of a.csv") +
-                           ":2: row_id: sample row P01-1-c1 was answered "
-                           "before, in " +
-                           file("a.csv") +
-                           ":2; --allow-duplicates counts the first of such rows and leaves out "
-                           "the others");
+    EXPECT_EQ(
+        error(),
+        file("copy of a.csv") +
+            ":2: row_id: sample participant P01 session 1 main condition c1 repeat 1 was answered "
+            "before, in " +
+            file("a.csv") +
+            ":2; --allow-duplicates counts the first of such rows and leaves out "
+            "the others");
 }
 
 TEST_F(CollectAnswers, RefusesATrialAnsweredTwiceAndCountsTheFirstWhenAllowed) {

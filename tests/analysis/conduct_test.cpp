@@ -16,7 +16,7 @@ using testing::Pair;
 Answers answersOf(const std::vector<Response>& rows) {
     Answers answers;
     for (const Response& row : rows)
-        answers.counted.push_back({row, {"a.csv", 2, 0, {}}});
+        answers.counted.push_back({Vote(row), Symbol("a.csv"), 2});
     answers.files = 1;
     return answers;
 }

@@ -14,7 +14,7 @@ using testing::ElementsAre;
 std::vector<Answer> answersOf(const std::vector<Response>& rows) {
     std::vector<Answer> answers;
     for (std::size_t i = 0; i < rows.size(); ++i)
-        answers.push_back({rows[i], {"a.csv", static_cast<int>(i) + 2, 0, {}}});
+        answers.push_back({Vote(rows[i]), Symbol("a.csv"), static_cast<int>(i) + 2});
     return answers;
 }
 

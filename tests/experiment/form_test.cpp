@@ -133,5 +133,36 @@ TEST(FormTest, ClicksGoToTheirQuestionAndTheButtonEnds) {
     EXPECT_THAT(valuesOf(form), testing::ElementsAre("2", "100"));
 }
 
+// Others than the study's keys do not answer, not even those that would without them.
+TEST(FormTest, TheStudysKeysAnswerAQuestionOfTwo) {
+    Keys keys;
+    keys.first = {'F'}, keys.second = {'J'}, keys.go = {'G'};
+    Question which = question(Kind::choice, {"x", "y"});
+    which.unsure = "dunno";
+    Form form({which}, 2, keys);
+    for (const Key key : {Key::one, Key::two, Key::left, Key::right, Key::space})
+        EXPECT_EQ(form.press(key, 1), Effect::none) << static_cast<int>(key);
+    EXPECT_EQ(form.press(static_cast<Key>('J'), 1), Effect::finished);
+    EXPECT_EQ(form.answers()[0].value, "2");
+
+    Form several({question(Kind::scale, {"a", "b", "c"}), question(Kind::text)}, 2, keys);
+    EXPECT_EQ(several.press(Key::one, 1), Effect::changed) << "a question of three has digits";
+    several.press(Key::down, 1);
+    type(several, "fog");
+    EXPECT_EQ(several.press(static_cast<Key>('G'), 1), Effect::none) << "while a text is typed";
+    several.press(Key::up, 1);
+    EXPECT_EQ(several.press(Key::space, 1), Effect::none);
+    EXPECT_EQ(several.press(static_cast<Key>('G'), 1), Effect::finished);
+}
+
+TEST(FormTest, AnOptionalChoiceCanBeTakenBack) {
+    Question which = question(Kind::choice, {"x", "y"});
+    which.optional = true;
+    Form form({which, question(Kind::text)}, 2);
+    form.press(Key::one, 1);
+    EXPECT_EQ(form.press(Key::backspace, 1), Effect::changed);
+    EXPECT_EQ(form.answers()[0].value, "");
+}
+
 } // namespace
 } // namespace obscura

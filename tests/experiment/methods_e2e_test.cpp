@@ -23,15 +23,18 @@ class Participant {
   public:
     Participant(test::Desktop& desktop, Program& program, const Protocol& protocol)
         : desktop_(desktop), program_(program), phases_(phasesOf(protocol.trial)),
+          before_(protocol.before), after_(protocol.after),
           images_(static_cast<int>(protocol.trial.order.size())), count_(longest(protocol)) {}
 
     void takePart() {
+        attend(before_);
         await("instructions");
         desktop_.tap(XK_space);
         for (int trial = 1; trial <= count_ && !ended_; ++trial)
             for (const Phase& phase : phases_)
                 if (!phase.counted() && !ended_)
                     attend(phase, trial);
+        attend(after_);
         if (!ended_)
             await("thanks");
         desktop_.tap(XK_Return);
@@ -39,6 +42,17 @@ class Participant {
     }
 
   private:
+    // Pages around the trials: to what can end the session the answer is the first option.
+    void attend(const std::vector<Phase>& pages) {
+        for (const Phase& page : pages) {
+            await(page.name);
+            if (page.questions.empty())
+                desktop_.tap(XK_space);
+            else
+                answer(page.questions);
+        }
+    }
+
     // Breaks are taken on the way, and a staircase may end before its last trial.
     void attend(const Phase& phase, int trial) {
         const char* kind = phase.questions.empty() && phase.text.empty() ? " image" : "";
@@ -63,8 +77,10 @@ class Participant {
             if (question.kind == Question::Kind::rank)
                 for (int image = images_; image > 0; --image)
                     desktop_.tap(XK_0 + static_cast<unsigned long>(image));
+            else if (question.kind == Question::Kind::number)
+                desktop_.type(fmt::format("{:g}", question.least));
             else
-                desktop_.tap(XK_2);
+                desktop_.tap(question.endsUnless.empty() ? XK_2 : XK_1);
             if (!Form(questions, images_).alone())
                 desktop_.tap(XK_Return);
         }
@@ -76,7 +92,7 @@ class Participant {
 
     test::Desktop& desktop_;
     Program& program_;
-    std::vector<Phase> phases_;
+    std::vector<Phase> phases_, before_, after_;
     int images_, count_;
     bool ended_ = false;
 };
@@ -103,14 +119,18 @@ TEST_P(Method, RunsToItsEndByKeys) {
     test::writeNoiseStimuli(readProtocol(protocol), stimuli);
     const Study study = openStudy(protocol, stimuli);
     test::Desktop desktop(1280, 720);
-    Program program(desktop.name(),
-                    {"--protocol", protocol.string(), "--stimuli", stimuli.string(), "--data",
-                     (folder.path() / "data").string(), "--participant", "P01"},
-                    folder.path() / "output.txt");
+    std::vector<std::string> arguments = {"--protocol",    protocol.string(),
+                                          "--stimuli",     stimuli.string(),
+                                          "--data",        (folder.path() / "data").string(),
+                                          "--participant", "P01"};
+    if (!study.protocol.translations.empty())
+        arguments.insert(arguments.end(), {"--language", study.protocol.texts.language});
+    Program program(desktop.name(), arguments, folder.path() / "output.txt");
     Participant(desktop, program, study.protocol).takePart();
 
     const DataFolder data(folder.path() / "data", study.protocol);
-    const std::vector<Row> answers = test::rowsOf(data.answers({"P01", 1, false}));
+    std::vector<Row> answers = test::rowsOf(data.answers({"P01", 1, false}));
+    std::erase_if(answers, [](const Row& row) { return row.at("trial_index") == "0"; });
     EXPECT_FALSE(answers.empty());
     for (const Row& answer : answers)
         EXPECT_EQ(answer.at("value"), expectedValue(answer, study.protocol));

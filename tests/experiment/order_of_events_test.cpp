@@ -28,6 +28,7 @@ class HastyObserver : public Observer {
     void describe(nlohmann::ordered_json&) const override {}
     bool instruct() override { return true; }
     void prepare(const Upcoming&) override {}
+    void preparePage(const Phase&) override {}
     double show(const TrialMachine& trial) override {
         shown_ = trial.screen();
         return clock_ += 1 / 60.0;
@@ -40,6 +41,7 @@ class HastyObserver : public Observer {
     }
     bool rest() override { return true; }
     void thank() override {}
+    void decline() override {}
 
   protected:
     const std::vector<Event>& press(gl::Key key) {

@@ -34,8 +34,6 @@ using test::Program;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr const char* banner = "Untimed display: not suitable for data collection";
-
 class PresenterTest : public test::PresentedStudy {
   protected:
     Texts& texts = study.protocol.texts;
@@ -49,8 +47,8 @@ class PresenterTest : public test::PresentedStudy {
     }
 
     // What the screen must show, to the pixel.
-    static DrawnPage drawn(Page page) {
-        page.warning = banner;
+    DrawnPage drawn(Page page) const {
+        page.warning = texts.untimed;
         return drawPage(page, width, height, 128);
     }
     static Image8 grey() {
@@ -97,7 +95,9 @@ class PresenterTest : public test::PresentedStudy {
     }
     void seesId(test::Desktop& desktop, Program& program, const std::string& typed,
                 const std::string& objection = "") {
-        sees(desktop, program, "who takes part?", drawn(idPage(texts, typed, objection)).image);
+        const std::string title = "Obscura: who takes part?" + (typed.empty() ? "" : " " + typed) +
+                                  (objection.empty() ? "" : " - " + objection);
+        program.await(title, [&] { return desktop.title() == title; });
     }
 
     // Steps of a session; each waits for the screen it expects.
@@ -239,7 +239,7 @@ TEST_F(PresenterTest, KilledInTheMiddleOfATrialLosesNoRow) {
     const std::string before = readFile(dataFolder().rows({"P01", 1, false}));
     Program again(desktop.name(), arguments({"--participant", "P01"}), output);
     EXPECT_EQ(again.wait(), 1);
-    EXPECT_THAT(readFile(output), HasSubstr("there are data of P01, session 1"));
+    EXPECT_THAT(readFile(output), HasSubstr("session 1 broke off; --resume goes on with it"));
     EXPECT_EQ(readFile(dataFolder().rows({"P01", 1, false})), before);
 
     // Given back by a person, the slot goes to the next.
@@ -341,7 +341,7 @@ TEST_F(PresenterTest, APageWithoutTheKeyboardSaysSo) {
     const auto comesAndGoes = [&](const std::string& title, Page page) {
         sees(desktop, program, title, drawn(page).image);
         desktop.takeFocus();
-        page.warning = banner;
+        page.warning = texts.untimed;
         sees(desktop, program, title, drawPage(unfocused(page, texts), width, height, 128).image);
         desktop.returnFocus();
         sees(desktop, program, title, drawn(page).image);
@@ -471,7 +471,9 @@ TEST_F(PresenterTest, AllThatAParticipantReadsIsTranslated) {
                    "end = \"Abbrechen\"\nrest = \"Pause\"\nid = \"Pseudonym, dann Eingabe\"\n"
                    "enter = \"Eingabe\"\ndone = \"Fertig\"\nbetween = \"Hinauf und hinunter.\"\n"
                    "idNote = \"Buchstaben\"\nidMalformed = \"Nein\"\nidTaken = \"Vergeben\"\n"
-                   "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"});
+                   "rehearsal = \"Probe\"\nuntimed = \"Ungenau\"\n"
+                   "resume = \"Weiter nach {pair} von {pairs}?\"\notherId = \"Anderes\"\n"
+                   "declined = \"Hier endet es.\"\n"});
     for (const TextKey& key : textKeys()) {
         const std::string usual = Texts().*key.text;
         EXPECT_TRUE(usual.empty() || texts.*key.text != usual) << key.name;
@@ -509,7 +511,7 @@ TEST_F(PresenterTest, ASessionThatBrokeOffIsCompletedFromItsJournal) {
     Program second(desktop.name(), arguments({"--participant", "P02"}), output);
     sees(desktop, second, "instructions", drawn(instructionsPage(texts)).image);
     EXPECT_EQ(readFile(dataFolder().rows({"P01", 1, false})), whole);
-    EXPECT_THAT(second.output(), testing::HasSubstr("the session of P01 broke off"));
+    EXPECT_THAT(second.output(), testing::HasSubstr("session 1 of P01 broke off"));
 }
 
 TEST_F(PresenterTest, SimulatesWithoutAScreen) {

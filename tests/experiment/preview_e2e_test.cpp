@@ -21,6 +21,7 @@ phases = [
     { name = "single", image = "b" },
     { name = "grid", images = [1, 2] },
     { name = "turn", images = [2, 1], alternate = 0.5, seconds = 600, key = true },
+    { name = "both", images = [[1, "b"], ["a", 2]], alternate = 0.5, seconds = 600, key = true },
     { name = "blank", grey = 30, seconds = 600, key = true },
     { name = "rank", images = [1, 2], questions = [{ name = "r", kind = "rank", text = "question" }] },
     { name = "rate", questions = [
@@ -47,6 +48,8 @@ TEST_F(PreviewTest, EachScreenIsWhatTheWindowShowsToThePixel) {
          std::vector<std::vector<unsigned long>>{{XK_space},
                                                  {XK_space},
                                                  {XK_space},
+                                                 {XK_space},
+                                                 {},
                                                  {XK_space},
                                                  {},
                                                  {XK_space},

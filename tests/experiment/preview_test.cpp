@@ -41,7 +41,7 @@ TEST(Preview, SaysHowAPhaseEnds) {
     EXPECT_EQ(endOf(phaseOf("image = 1\nseconds = 3\nkey = true\natLeast = 1")),
               "3 s, 180 frames at 60 Hz; or Space, not before 1 s");
     EXPECT_EQ(endOf(phaseOf("images = [1, 2]\nalternate = 0.1\nseconds = 4")),
-              "each 0.1 s, 6 frames; 4 s, 240 frames at 60 Hz, locked");
+              "4 s, 240 frames at 60 Hz, in turns of 0.1 s, 6 frames, locked");
     const std::string question =
         "questions = [{ name = \"q\", text = \"ask\", options = [\"yes\", \"no\"] }]";
     EXPECT_EQ(endOf(phaseOf(question)), "the answer: one key or click");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <regex>
 #include <set>
@@ -54,7 +55,7 @@ std::set<std::string> describedVariables(const fs::path& dataset, Faults& faults
 }
 
 void checkFile(const fs::path& path, const std::set<std::string>& described,
-               std::set<std::string>& rowIds, Faults& faults) {
+               std::set<std::string>& used, Faults& faults) {
     const std::string file = path.filename().string();
     if (!std::regex_match(file, dataName))
         faults.push_back(file + ": not a name of a data file");
@@ -65,8 +66,10 @@ void checkFile(const fs::path& path, const std::set<std::string>& described,
     const std::set<std::string> columns(header.begin(), header.end());
     if (columns.size() != header.size())
         faults.push_back(file + ": a column stands twice");
-    if (columns != described)
+    if (!std::includes(described.begin(), described.end(), columns.begin(), columns.end()))
         faults.push_back(file + ": columns are not those described");
+    used.insert(columns.begin(), columns.end());
+    std::set<std::string> rowIds;
     const auto id = std::find(header.begin(), header.end(), "row_id") - header.begin();
     while (std::getline(stream, line)) {
         const auto row = cells(line);
@@ -82,10 +85,12 @@ void checkFile(const fs::path& path, const std::set<std::string>& described,
 Faults psychDsFaults(const fs::path& dataset) {
     Faults faults;
     const auto described = describedVariables(dataset, faults);
-    std::set<std::string> rowIds;
+    std::set<std::string> used;
     for (const auto& entry : fs::recursive_directory_iterator(dataset / "data"))
         if (entry.is_regular_file())
-            checkFile(entry.path(), described, rowIds, faults);
+            checkFile(entry.path(), described, used, faults);
+    if (!std::includes(used.begin(), used.end(), described.begin(), described.end()))
+        faults.push_back("a variable is described that no file has");
     // Outside data/, names that look like data files would be taken for misplaced ones.
     for (const auto& entry : fs::recursive_directory_iterator(dataset)) {
         const std::string name = entry.path().filename().string();

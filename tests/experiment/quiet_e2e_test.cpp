@@ -5,6 +5,7 @@
 #include "experiment/session.h"
 #include "tests/experiment/desktop.h"
 #include "tests/experiment/quiet.h"
+#include "tests/experiment/receiver.h"
 #include "tests/experiment/shipped_studies.h"
 #include "tests/experiment/tiny_study.h"
 
@@ -78,8 +79,10 @@ class Listener : public Observer {
             coming_ = coming_ && event.kind != Event::Kind::release;
         return events;
     }
+    void preparePage(const Phase& page) override { presenter_.preparePage(page); }
     bool rest() override { return true; }
     void thank() override {}
+    void decline() override {}
 
   private:
     void listen(bool on) {
@@ -120,8 +123,10 @@ class QuietTest : public testing::TestWithParam<fs::path> {
         writeFile(protocol, test::hastened(readFile(method)));
         test::writeNoiseStimuli(readProtocol(protocol), stimuli);
         const Study study = openStudy(protocol, stimuli);
-        Display display({{"quiet", 1, std::nullopt}, study.protocol.trial.grey, true},
-                        curtain(study));
+        test::Receiver receiver(SOCK_STREAM);
+        Display display(
+            {{"quiet", 1, std::nullopt}, study.protocol.trial.grey, true, receiver.url()},
+            curtain(study));
         test::listenToOpenGl();
         Presenter presenter(display, study, "");
         Listener listener(presenter, desktop, study.protocol, trials);
@@ -131,6 +136,8 @@ class QuietTest : public testing::TestWithParam<fs::path> {
         } catch (const Enough&) {
         }
         EXPECT_EQ(listener.listened, trials);
+        const std::size_t onsets = phasesOf(study.protocol.trial).size() * std::size_t(trials);
+        EXPECT_EQ(receiver.lines(onsets).size(), onsets) << "of the trigger, which is quiet, too";
         return test::heard();
     }
 };

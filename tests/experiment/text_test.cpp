@@ -181,13 +181,19 @@ TEST(Text, TheShippedProtocolsFitTheirScreens) {
             continue;
         ++found;
         const Protocol protocol = readProtocol(entry.path());
-        for (Page page : {instructionsPage(protocol.texts), startPage(protocol.texts, 7, 7),
-                          questionPage(protocol.texts), leavePage(protocol.texts),
-                          thanksPage(protocol.texts)}) {
-            page.warning = "Untimed display: not suitable for data collection";
-            EXPECT_NO_THROW(drawPage(unfocused(page, protocol.texts), protocol.width,
-                                     protocol.height, protocol.trial.grey))
-                << entry.path();
+        for (const Texts* words : protocol.languages()) {
+            EXPECT_NO_THROW(checkShowable(*words)) << entry.path();
+            std::vector<Page> pages = {instructionsPage(*words), startPage(*words, 7, 7),
+                                       questionPage(*words),     leavePage(*words),
+                                       thanksPage(*words),       declinedPage(*words)};
+            for (const Phase& page : protocol.before)
+                pages.push_back(formPage(*words, Form(page.questions, 0), {}, page.text));
+            for (Page& page : pages) {
+                page.warning = words->untimed;
+                EXPECT_NO_THROW(drawPage(unfocused(page, *words), protocol.width, protocol.height,
+                                         protocol.trial.grey))
+                    << entry.path() << ' ' << words->language;
+            }
         }
     }
     EXPECT_GT(found, 0);
@@ -227,20 +233,24 @@ TEST(Text, FromRightToLeftStaysOnItsCard) {
     for (const Texts* words : {&arabic, &hebrew, &mixed, &texts})
         for (const Size size : oddSizes) {
             const DrawnPage drawn = drawPage(questionPage(*words), size.width, size.height, 128);
-            const Box &one = drawn.options.at(0), &two = drawn.options.at(1);
+            Box one = drawn.options.at(0), two = drawn.options.at(1);
+            if (one.x > two.x)
+                std::swap(one, two);
             const auto [left, right] = inkedColumns(drawn.image, one.y, one.y + one.height);
             EXPECT_GT(left, one.x) << size.width;
             EXPECT_LT(right, two.x + two.width) << size.width;
-            // Each card holds its key, and right of it ink of its label.
-            for (const Box& box : {one, two}) {
-                int inked = 0;
-                for (int x = box.x + box.width / 2; x < box.x + box.width; ++x)
-                    for (int y = box.y; y < box.y + box.height; ++y)
-                        inked +=
-                            drawn.image.pixels[static_cast<std::size_t>((y * size.width + x) * 3)] <
-                            60;
-                EXPECT_GT(inked, 10) << size.width << ' ' << words->first;
-            }
+            // Each card holds its key, and beside it ink of its label.
+            for (const Box& box : {one, two})
+                for (const int half : {box.x, box.x + box.width / 2}) {
+                    int inked = 0;
+                    for (int x = half; x < half + box.width / 2; ++x)
+                        for (int y = box.y; y < box.y + box.height; ++y)
+                            inked +=
+                                drawn.image
+                                    .pixels[static_cast<std::size_t>((y * size.width + x) * 3)] <
+                                60;
+                    EXPECT_GT(inked, 10) << size.width << ' ' << words->first;
+                }
             for (int x = one.x + one.width + 2; x < two.x - 2; ++x)
                 for (int y = one.y; y < one.y + one.height; ++y)
                     ASSERT_EQ(
@@ -300,6 +310,19 @@ TEST(Text, RefusesTextsThatNoFontCanShow) {
             testing::ThrowsMessage<Error>(testing::HasSubstr(fmt::format(
                 "study.toml:12:9: texts.{}: no installed font can show U+0378", key.name))));
     }
+    Texts danish = texts;
+    danish.language = "da";
+    danish.table = "languages.da";
+    danish.leave += "\u0378";
+    danish.name = "Dansk";
+    EXPECT_THAT([&] { checkShowable(danish); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr(
+                    "languages.da.leave: no installed font can show U+0378 (the language is "
+                    "\"da\"); install")));
+    danish.leave.clear();
+    danish.name += "\u0378";
+    EXPECT_THAT([&] { checkShowable(danish); },
+                testing::ThrowsMessage<Error>(testing::HasSubstr("languages.da.name: no ")));
     Texts many = texts;
     for (int i = 0; i < 12; ++i)
         many.start += static_cast<char>(1 + (i > 7 ? i + 5 : i));

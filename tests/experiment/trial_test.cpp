@@ -46,7 +46,7 @@ TEST(Trial, JournalsBeforeImageOneAndOnlyThere) {
 
 // A blank ends by the clock: what is written after it would hold up the image.
 TEST(Trial, JournalsBeforeTheBlankThatLeadsToTheImage) {
-    Phase page{"page"}, blank{"blank"}, image{"image"};
+    Phase page, blank, image;
     page.text = "start";
     blank.grey = 128, blank.seconds = 0.1, blank.key = false;
     image.images = {"1"};

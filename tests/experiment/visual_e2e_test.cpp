@@ -3,6 +3,7 @@
 #include "tests/experiment/desktop.h"
 #include "tests/experiment/presented_study.h"
 #include "tests/experiment/program.h"
+#include "tests/experiment/receiver.h"
 #include "tests/experiment/shipped_studies.h"
 
 #include <gtest/gtest.h>
@@ -76,6 +77,41 @@ TEST_F(VisualTest, PairsAreAnsweredAsWithoutAWindow) {
           .ordering = "scheme = \"williams\"\nbreakEvery = 3"});
     participants = 2;
     bothAgree();
+}
+
+// A receiver of triggers hears of every phase of every trial, with the onset that the table has.
+TEST_F(VisualTest, OnsetsAreTold) {
+    open({.simulation = quick, .minimumView = 0.1});
+    test::Receiver receiver(SOCK_STREAM);
+    simulate(data, {"--visual", "--trigger", receiver.url()});
+    const DataFolder where(data, study.protocol);
+    const std::vector<Row> phases = test::rowsOf(where.phases({"S01", 1, true}));
+    ASSERT_EQ(phases.size(), 35u);
+    const std::vector<std::string> lines = receiver.lines(phases.size() + 1);
+    ASSERT_EQ(lines.size(), phases.size()) << "and then the program has ended";
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const auto line = nlohmann::json::parse(lines[i]);
+        EXPECT_EQ(line["phase"], phases[i].at("phase"));
+        EXPECT_EQ(std::to_string(line["trial"].get<int>()), phases[i].at("trial_index"));
+        EXPECT_NEAR(line["onset"].get<double>() * 1000, std::stod(phases[i].at("onset_ms")), 0.01);
+        EXPECT_EQ(line["number"], i % 5 + 1);
+    }
+    const auto sidecar = nlohmann::json::parse(readFile(where.sidecar({"S01", 1, true})));
+    EXPECT_EQ(sidecar["trigger"]["receiver"], receiver.url());
+    EXPECT_EQ(sidecar["trigger"]["sent"], 35);
+    EXPECT_EQ(sidecar["trigger"]["dropped"], 0);
+    EXPECT_GT(sidecar["trigger"]["delay_max_ms"], 0);
+}
+
+TEST_F(VisualTest, NoSessionBeginsWithoutTheReceiver) {
+    open({.simulation = quick});
+    const std::string gone = test::Receiver(SOCK_STREAM).url();
+    test::Desktop desktop(width, height);
+    Program program(desktop.name(), arguments({"--participant", "P01", "--trigger", gone}), output);
+    EXPECT_EQ(program.wait(), 1);
+    EXPECT_NE(program.output().find("no receiver could be reached"), std::string::npos)
+        << program.output();
+    EXPECT_FALSE(fs::exists(DataFolder(data, study.protocol).journal({"P01", 1, false})));
 }
 
 // Each kind of question, by its keys.

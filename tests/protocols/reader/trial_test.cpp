@@ -126,6 +126,16 @@ const Mistake mistakes[] = {
     {"ListOfOne", phase("images = [1]\n"), "expected a list of two images or more"},
     {"AlternatesUncounted", phase("images = [1, 2]\nalternate = 0.1\n"),
      "trial.phases[2].alternate: expected two images or more and \"seconds\" or \"frames\""},
+    {"TurnsWithoutAlternate", phase("images = [[1, 2], [2, 1]]\nseconds = 1\n"),
+     "trial.phases[2].images: expected \"alternate\""},
+    {"UnequalTurns", phase("images = [[1, 2], [2, 1, 2]]\nalternate = 0.1\nseconds = 1\n"),
+     "expected as many images in turn at each place, found 2 and 3"},
+    {"NoTurn", phase("images = [[], []]\nalternate = 0.1\nseconds = 1\n"),
+     "expected two images or more in turn at a place, found "},
+    {"AlternatesBesideQuestions",
+     phase("images = [1, 2]\nalternate = 0.1\nseconds = 1\nquestions = [{ name = \"q\", kind = "
+           "\"text\" }]\n"),
+     "trial.phases[2].alternate: expected no questions beside images that alternate"},
     {"LeastWithoutKey", phase("image = 2\nseconds = 2\natLeast = 1\n"),
      "trial.phases[2].atLeast: expected \"atLeast\" only where a key ends the phase"},
     {"NameTwice", phase("image = 2\n") + "[[trial.phases]]\nname = \"it\"\ngrey = 1\nframes = 1\n",
@@ -146,6 +156,94 @@ const Mistake mistakes[] = {
 };
 INSTANTIATE_TEST_SUITE_P(All, TrialMistake, testing::ValuesIn(mistakes),
                          [](const auto& param) { return std::string(param.param.name); });
+
+// Pages around the trials.
+
+constexpr const char* consent = R"([[before]]
+name = "consent"
+text = "start"
+questions = [ { name = "consent", text = "question", options = ["first", "second"], endsUnless = ["first"] } ]
+[[after]]
+name = "mood"
+questions = [ { name = "mood", kind = "number", least = 0, most = 9, optional = true } ]
+)";
+
+TEST(Pages, AreThoseBeforeAndAfterTheTrials) {
+    const Protocol protocol = parsed(consent);
+    ASSERT_EQ(protocol.before.size(), 1u);
+    ASSERT_EQ(protocol.after.size(), 1u);
+    const Question& question = protocol.before[0].questions[0];
+    EXPECT_THAT(question.endsUnless, ElementsAre("first"));
+    EXPECT_TRUE(admits(question, "1"));
+    EXPECT_FALSE(admits(question, "2"));
+    EXPECT_FALSE(admits(question, "")) << "nothing was answered in time";
+    EXPECT_TRUE(admits(protocol.after[0].questions[0], ""));
+}
+
+TEST(Pages, OfAScaleAdmitByItsNumbers) {
+    Question scale;
+    scale.kind = Question::Kind::scale;
+    scale.options = {"bad", "fair", "good"};
+    scale.lowest = -1;
+    scale.endsUnless = {"fair", "good"};
+    EXPECT_FALSE(admits(scale, "-1"));
+    EXPECT_TRUE(admits(scale, "0"));
+    EXPECT_TRUE(admits(scale, "1"));
+}
+
+TEST(Pages, BelongToTheDesignOfStudiesThatHaveThem) {
+    EXPECT_EQ(designOf(parsed("")).find("before"), std::string::npos);
+    const std::string with = designOf(parsed(consent));
+    std::string other = consent;
+    other.replace(other.find("[\"first\"]"), 9, "[\"second\"]");
+    EXPECT_THAT(differences(with, designOf(parsed(other))),
+                ElementsAre(HasSubstr("before.consent.questions.consent.endsUnless")));
+}
+
+TEST(Pages, ThatCannotBeAreRefused) {
+    const auto error = [](const std::string& lines, const std::string& kind = "before") {
+        return errorOf("[[" + kind + "]]\nname = \"it\"\n" + lines);
+    };
+    EXPECT_THAT(error("grey = 3"), HasSubstr("before[1]: expected \"text\" or \"questions\""));
+    EXPECT_THAT(error("image = 1"), HasSubstr("expected \"text\" or \"questions\""));
+    EXPECT_THAT(error("text = \"start\"\nprogress = true"), HasSubstr("no \"progress\" outside"));
+    EXPECT_THAT(error("text = \"nowhere\""), HasSubstr("texts.nowhere"));
+    const auto question = [&](const std::string& more, const std::string& kind = "before") {
+        return error("questions = [ { name = \"q\", options = [\"first\", \"second\"], " + more +
+                         " } ]",
+                     kind);
+    };
+    EXPECT_THAT(question("endsUnless = [\"frist\"]"),
+                HasSubstr("expected one of the question's options, found \"frist\"; did you mean"));
+    EXPECT_THAT(question("endsUnless = []"), HasSubstr("endsUnless"));
+    EXPECT_THAT(question("endsUnless = [\"first\"], optional = true"),
+                HasSubstr("no \"optional\""));
+    EXPECT_THAT(question("images = true"), HasSubstr("no question about images"));
+    EXPECT_THAT(question("endsUnless = [\"first\"]", "after"),
+                HasSubstr("only in questions of [[before]]"));
+    EXPECT_THAT(question("endsUnless = [\"first\"]", "trial.phases"),
+                HasSubstr("only in questions of [[before]]"));
+}
+
+TEST(Screen, SaysFromWhereAndHowLarge) {
+    const Protocol protocol = parsed("[screen]\ndistanceCm = 60\ndegrees = [20, 11]\n"
+                                     "pixelsPerDegree = { min = 40 }\n");
+    EXPECT_EQ(protocol.screen.distanceCm, 60);
+    EXPECT_EQ((*protocol.screen.degrees)[1], 11);
+    EXPECT_EQ((*protocol.screen.pixelsPerDegree)[0], 40);
+    EXPECT_NE(designOf(protocol), designOf(parsed("[screen]\ndistanceCm = 61\n")));
+    EXPECT_EQ(designOf(parsed("")).find("screen"), std::string::npos);
+}
+
+TEST(Screen, ThatCannotBeIsRefused) {
+    EXPECT_THAT(errorOf("[screen]\ndegrees = [20, 11]\n"), HasSubstr("screen.distanceCm"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = 0\n"), HasSubstr("screen.distanceCm"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = nan\n"), HasSubstr("screen.distanceCm"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = 60\ndegrees = [20]\n"),
+                HasSubstr("found 1 numbers"));
+    EXPECT_THAT(errorOf("[screen]\ndistanceCm = 60\npixelsPerDegree = { min = 9, max = 8 }\n"),
+                HasSubstr("pixelsPerDegree.max"));
+}
 
 TEST(Roles, MayBeAnyNumberAndAreSortedByName) {
     const Protocol protocol =

@@ -1,7 +1,9 @@
-#include "analysis/frequencies.h"
 #include "base/csv.h"
+#include "base/error.h"
 #include "base/files.h"
 
+#include "inference/counts.h"
+#include "inference/tails.h"
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -225,6 +227,91 @@ TEST(FrequenciesTest, CountsBeyond32BitsAreRight) {
     const Interval share = wilson(votes.b, votes.total());
     EXPECT_GT(share.low, 0.4999);
     EXPECT_LT(share.high, 0.5001);
+}
+
+// R 4.2.2 throughout: golden/golden_statistics.R, or the call that is given.
+TEST(Counts, CorrectedAndMidPOfTheThesisAreThoseOfR) {
+    EXPECT_NEAR(chiSquareYates({11, 25}), 4.69444444444, 1e-11);
+    EXPECT_NEAR(chiSquareYates({21, 15}), 0.694444444444, 1e-12);
+    EXPECT_EQ(chiSquareYates({18, 18}), 0);
+    EXPECT_NEAR(midP({14, 22}), 0.187741558999, 1e-12);
+    EXPECT_NEAR(midP({25, 11}), 0.0200738519197, 1e-13);
+    EXPECT_EQ(midP({18, 18}), 1);
+    EXPECT_EQ(midP({0, 1}), 0.5);
+}
+
+void expectInterval(Interval found, double low, double high) {
+    EXPECT_NEAR(found.low, low, 1e-13);
+    EXPECT_NEAR(found.high, high, 1e-13);
+}
+
+// qbeta(a / 2, k, n - k + 1), qbeta(1 - a / 2, k + 1, n - k); prop.test(correct = FALSE).
+TEST(Counts, IntervalsAreThoseOfR) {
+    expectInterval(clopperPearson(25, 36), 0.5189293699999201, 0.8365260153715064);
+    expectInterval(clopperPearson(0, 36), 0, 0.097393755914492);
+    expectInterval(clopperPearson(1, 1), 0.025, 1);
+    expectInterval(clopperPearson(25, 36, 0.9), 0.545316268686756, 0.818246229298065);
+    expectInterval(clopperPearson(100'000'000, 1'000'000'000), 0.0999814068067956,
+                   0.100018595508732);
+    expectInterval(jeffreys(0, 36), 1.35453669888258e-05, 0.0669444823423745);
+    expectInterval(jeffreys(25, 36, 0.99), 0.481816063431106, 0.85916989893317);
+    expectInterval(wilson(25, 36, 0.9), 0.558308552290136, 0.803396742368855);
+}
+
+// The interval belongs to the test: it excludes 1/2 if and only if the test rejects.
+TEST(Counts, IntervalsAgreeWithTheirTests) {
+    for (int n = 1; n <= 80; ++n)
+        for (int k = 0; k <= n; ++k) {
+            const auto excludes = [](Interval i) { return i.low > 0.5 || i.high < 0.5; };
+            EXPECT_EQ(excludes(clopperPearson(k, n)), exactP({n - k, k}) < 0.05) << k << '/' << n;
+            EXPECT_EQ(excludes(wilson(k, n)), chiSquareP(chiSquare({n - k, k})) < 0.05);
+        }
+}
+
+TEST(Counts, UnanimousVotesBoundTheJodFromOneSide) {
+    const JodLimits all = jodLimits(clopperPearson(36, 36)), none = jodLimits(wilson(0, 36)),
+                    some = jodLimits(wilson(25, 36));
+    EXPECT_NEAR(all.low.value(), 1.922261678757708, 1e-12); // qnorm(.025^(1/36)) / qnorm(.75)
+    EXPECT_FALSE(all.high);
+    EXPECT_FALSE(none.low);
+    EXPECT_LT(none.high.value(), -1.9);
+    EXPECT_NEAR(some.low.value(), 0.117, 5e-4);
+    EXPECT_NEAR(some.high.value(), 1.357, 5e-4);
+}
+
+TEST(Counts, BayesianFiguresAreThoseOfR) {
+    EXPECT_NEAR(std::exp(logBayesFactor({18, 18})), 0.204656249591, 1e-11);
+    EXPECT_NEAR(std::exp(logBayesFactor({11, 25})), 3.09132287513, 1e-10);
+    EXPECT_NEAR(std::exp(logBayesFactor({11, 25}, 10)), 3.59134319561, 1e-10);
+    EXPECT_NEAR(logBayesFactor({11, 25}, 0.5), 0.770042192452618, 1e-12);
+    EXPECT_NEAR(logBayesFactor({1100, 0}), 755.457924479217, 1e-10);
+    EXPECT_NEAR(logBayesFactor({0, 1}), 0, 1e-15); // one vote says nothing
+    EXPECT_NEAR(ropeProbability({11, 25}, 0.1), 0.133160152718, 1e-11);
+    EXPECT_NEAR(ropeProbability({11, 25}, 0.15, 0.5), 0.29258500253968, 1e-12);
+    EXPECT_NEAR(ropeProbability({10, 990}, 0.1) / 3.9818767326045e-201, 1, 1e-10);
+    EXPECT_NEAR(ropeProbability({990, 10}, 0.1) / 3.9818767326045e-201, 1, 1e-10);
+    EXPECT_EQ(ropeProbability({11, 25}, 0), 0);
+    EXPECT_EQ(ropeProbability({11, 25}, 0.5), 1);
+    EXPECT_NEAR(probabilityOfMajority({11, 25}), 0.989963074040134, 1e-13);
+    EXPECT_NEAR(probabilityOfMajority({999, 1}) / 4.67565072870157e-299, 1, 1e-10);
+    EXPECT_NEAR(probabilityOfMajority({0, 0}), 0.5, 1e-15); // the prior
+}
+
+// 1 / (N + 1) for a uniform prior is the probability of every count: the factor from it.
+TEST(Counts, BayesFactorOfVeryManyVotesIsThatOfStirling) {
+    const double n = 2e9;
+    EXPECT_NEAR(logBayesFactor({1'000'000'000, 1'000'000'000}),
+                0.5 * std::log(3.14159265358979 * n / 2) - std::log(n + 1), 1e-7);
+}
+
+TEST(Counts, WithoutVotesThrow) {
+    for (const Votes votes : {Votes{0, 0}, Votes{-1, 3}}) {
+        for (const auto function :
+             {chiSquare, chiSquareYates, exactP, midP, cohenG, cohenH, cohenW})
+            EXPECT_THROW(function(votes), Error);
+        for (const auto function : {wilson, clopperPearson, jeffreys})
+            EXPECT_THROW(function(votes.b, votes.total(), 0.95), Error);
+    }
 }
 
 } // namespace

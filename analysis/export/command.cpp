@@ -1,0 +1,160 @@
+#include "analysis/export/command.h"
+
+#include "analysis/export/formats.h"
+#include "analysis/export/pseudonyms.h"
+#include "base/files.h"
+#include "base/process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::map<std::string, SimulatedRows> simulatedRows = {{"refuse", SimulatedRows::refuse},
+                                                            {"exclude", SimulatedRows::exclude},
+                                                            {"only", SimulatedRows::only},
+                                                            {"include", SimulatedRows::include}};
+
+bool isWithin(const fs::path& path, const fs::path& folder) {
+    const fs::path inner = fs::weakly_canonical(path), outer = fs::weakly_canonical(folder);
+    return std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first ==
+           outer.end();
+}
+
+void checkOut(const fs::path& out, const fs::path& study) {
+    const bool isFree = !fs::exists(fs::symlink_status(out)) ||
+                        (fs::is_directory(fs::symlink_status(out)) && fs::is_empty(out));
+    if (!isFree)
+        throw Error({out.string(), 0, 0, {}},
+                    "expected --out to be a new or empty folder, found something there, which an "
+                    "export does not replace; give another");
+    if (isWithin(out, study))
+        throw Error({out.string(), 0, 0, {}},
+                    "expected --out to be outside the study's folder, whose data must stay as they "
+                    "are; give another");
+}
+
+void checkKey(const fs::path& key, const ExportOptions& options) {
+    if (isWithin(key, options.out) || isWithin(key, options.study))
+        throw Error({key.string(), 0, 0, {}},
+                    "expected --new-pseudonyms to name a file outside the export and the study's "
+                    "folder, found it within; who has one must not have the other");
+    if (fs::exists(fs::symlink_status(key)))
+        throw Error({key.string(), 0, 0, {}},
+                    "expected --new-pseudonyms to name a new file, found one, which is not "
+                    "replaced; give another");
+}
+
+// A new file that only its owner may read, on disk when the function returns.
+void writeKey(const fs::path& path, const std::string& content) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    const bool written =
+        file >= 0 &&
+        ::write(file, content.data(), content.size()) == static_cast<ssize_t>(content.size()) &&
+        ::fsync(file) == 0;
+    const int reason = errno;
+    if (file >= 0)
+        ::close(file);
+    if (!written)
+        throw Error({path.string(), 0, 0, {}},
+                    fmt::format("cannot be written: {}", std::strerror(reason)));
+}
+
+// Beside the target, renamed when all is there; without a trailing slash, which has no name.
+void writeFolder(fs::path out, const ExportFiles& files, const fs::path& key,
+                 const std::string& keyContent) {
+    out = fs::weakly_canonical(out);
+    makeFolders(out.parent_path());
+    const fs::path unfinished = out.parent_path() / fmt::format(".obscura-unfinished-export.{}",
+                                                                ProcessId::current().text());
+    if (!fs::create_directory(unfinished))
+        throw Error({unfinished.string(), 0, 0, {}}, "expected nothing of this name; remove it");
+    try {
+        for (const auto& [path, content] : files)
+            writeFile(unfinished / path, content);
+        if (!key.empty())
+            writeKey(key, keyContent);
+        fs::rename(unfinished, out);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(unfinished, ignored);
+        throw;
+    }
+}
+
+ExportFiles filesOf(const ExportOptions& options, StudyData& data) {
+    if (options.format == "bids")
+        return bidsFiles(data,
+                         options.stimuli.empty() ? std::nullopt : std::optional(options.stimuli));
+    if (options.format == "psych-ds")
+        return psychDsFiles(data);
+    return pwcmpFiles(data, data.remarks);
+}
+
+} // namespace
+
+CLI::App* declareExport(CLI::App& app, ExportOptions& options) {
+    CLI::App* command = app.add_subcommand(
+        "export", "Write a study's data in a standard's form, for archives and other programs");
+    command->add_option("STUDY", options.study, "The study's folder (participant_data/<study>)")
+        ->option_text(" ")
+        ->required();
+    command
+        ->add_option("--format", options.format,
+                     "bids (BIDS, behavioural), psych-ds, or pwcmp (comparisons)")
+        ->option_text("WHAT")
+        ->required()
+        ->check(CLI::IsMember({"bids", "psych-ds", "pwcmp"}));
+    command->add_option("--out", options.out, "A new folder")->option_text("DIR")->required();
+    command
+        ->add_option("--stimuli", options.stimuli,
+                     "For bids: folder of the study's stimuli; the images that were shown go "
+                     "into the export, compared with the hashes in the data")
+        ->option_text("DIR");
+    command
+        ->add_option("--new-pseudonyms", options.key,
+                     "Give participants new, random names, and write who is who into this new "
+                     "file, which only you can read")
+        ->option_text("FILE");
+    command
+        ->add_option_function<std::string>(
+            "--simulated",
+            [&options](const std::string& word) { options.simulated = simulatedRows.at(word); },
+            "Sessions of simulated among those of real participants: refuse, exclude, only (the "
+            "simulated), include")
+        ->option_text("WHAT=refuse")
+        ->check(CLI::IsMember({"refuse", "exclude", "only", "include"}));
+    command->add_flag("--lenient", options.lenient,
+                      "Report rows that cannot be read, and skip them");
+    return command;
+}
+
+void exportStudy(const ExportOptions& options) {
+    checkOut(options.out, options.study);
+    if (!options.key.empty())
+        checkKey(options.key, options);
+    if (!options.stimuli.empty() && options.format != "bids")
+        throw Error("expected --stimuli with --format bids only, whose folder has a place for "
+                    "images; leave it out");
+    StudyData data = readStudy(options.study, options.simulated, options.lenient);
+    const std::string key = options.key.empty() ? "" : renameParticipants(data);
+    const ExportFiles files = filesOf(options, data);
+    writeFolder(options.out, files, options.key, key);
+    for (const std::string& remark : data.remarks)
+        fmt::print(stderr, "{}\n", remark);
+    fmt::print("{} session(s) of {}, {} files: {}\n", data.sessions.size(), data.study,
+               files.size(), options.out.string());
+    if (!options.key.empty())
+        fmt::print("who is who: {}\n", options.key.string());
+}
+
+} // namespace obscura
