@@ -1,6 +1,7 @@
 #include "experiment/pages.h"
 
 #include "base/error.h"
+#include "experiment/script.h"
 
 #include <fmt/format.h>
 

@@ -21,9 +21,6 @@ struct DrawnPage {
 // does from right to left, and otherwise as their first letter.
 DrawnPage drawPage(const Page& page, int width, int height, int grey);
 
-// Whether most of its letters run so.
-bool runsFromRightToLeft(const std::string& text);
-
 // The characters of a text for which no installed font has a glyph, so that only boxes would be
 // drawn, each once and as people look them up: "図 (U+56F3)". Control characters are among them.
 std::vector<std::string> unshowable(const std::string& text);

@@ -1,6 +1,6 @@
 #include "experiment/typesetter.h"
 
-#include "experiment/text.h"
+#include "experiment/script.h"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,6 @@
 #include "inference/scales.h"
 
+#include "analysis/golden/golden.h"
 #include "analysis/golden/table.h"
 #include "analysis/golden/values.h"
 #include "base/error.h"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "analysis/golden/golden.h"
-
 #include "inference/result.h"
 #include <Eigen/Dense>
 
@@ -12,7 +10,11 @@
 #include <string>
 #include <vector>
 
-// What computes the values of golden.h shares.
+namespace obscura {
+struct GoldenValue; // golden.h
+}
+
+// What the computation of golden values shares.
 namespace obscura::golden {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();

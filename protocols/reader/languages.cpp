@@ -203,28 +203,30 @@ bool sameLanguage(std::string_view one, std::string_view other) {
     });
 }
 
-void parseLanguages(TomlTable& root, const std::set<std::string>& named, Protocol& protocol) {
+std::vector<Texts> parseLanguages(TomlTable& root, const std::set<std::string>& named) {
     const bool several = root.has("languages");
-    protocol.texts =
-        parseTexts(root.requiredTable("texts", "what participants read"), named, several, "");
+    std::vector<Texts> all;
+    all.push_back(
+        parseTexts(root.requiredTable("texts", "what participants read"), named, several, ""));
     if (!several)
-        return;
+        return all;
     for (auto& [tag, table] : root.tables("languages", "another language, [languages.TAG]")) {
         checkTag(tag, table.place());
-        for (const Texts* other : protocol.languages())
-            if (sameLanguage(other->language, tag))
+        for (const Texts& other : all)
+            if (sameLanguage(other.language, tag))
                 throw Error(table.place(), fmt::format("expected another language, found \"{}\" "
                                                        "again, which [{}] has",
-                                                       tag, other->table));
+                                                       tag, other.table));
         Texts texts = parseTexts(table, named, true, tag);
-        for (const Texts* other : protocol.languages())
-            if (other->name == texts.name)
+        for (const Texts& other : all)
+            if (other.name == texts.name)
                 throw Error(placeOfName(table),
                             fmt::format("expected another name, so that people can choose, found "
                                         "\"{}\" again, which [{}] has",
-                                        texts.name, other->table));
-        protocol.translations.push_back(std::move(texts));
+                                        texts.name, other.table));
+        all.push_back(std::move(texts));
     }
+    return all;
 }
 
 } // namespace obscura

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "protocols/reader/protocol.h"
+#include "protocols/reader/texts.h"
 #include "protocols/reader/toml_table.h"
 
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace obscura {
 
@@ -21,6 +22,7 @@ bool sameLanguage(std::string_view one, std::string_view other);
 // [texts] and each of [languages.TAG], which has the same keys: every text of the program's own,
 // and `named`, those that the trial names besides. Of its own texts the program has translations
 // (protocols/languages); in a language that it does not know none is left to its English default.
-void parseLanguages(TomlTable& root, const std::set<std::string>& named, Protocol& protocol);
+// The first is that of [texts]; the others follow in the order of the file.
+std::vector<Texts> parseLanguages(TomlTable& root, const std::set<std::string>& named);
 
 } // namespace obscura

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <set>
 
 namespace obscura {
@@ -316,7 +317,10 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
         protocol.keys = parseKeys(std::move(*keys));
     protocol.before = parsePages(root, "before");
     protocol.after = parsePages(root, "after");
-    parseLanguages(root, textsOf(protocol), protocol);
+    std::vector<Texts> languages = parseLanguages(root, textsOf(protocol));
+    protocol.texts = std::move(languages.front());
+    protocol.translations.assign(std::make_move_iterator(languages.begin() + 1),
+                                 std::make_move_iterator(languages.end()));
     nameGo(protocol.keys, protocol.texts);
     for (Texts& translation : protocol.translations)
         nameGo(protocol.keys, translation);
@@ -327,46 +331,6 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
 }
 
 } // namespace
-
-std::span<const TextKey> textKeys() {
-    static const std::vector<TextKey> keys = {
-        {"instructions", &Texts::instructions, true},
-        {"start", &Texts::start},
-        {"question", &Texts::question},
-        {"first", &Texts::first},
-        {"second", &Texts::second},
-        {"thanks", &Texts::thanks, true},
-        {"progress", &Texts::progress},
-        {"space", &Texts::space},
-        {"enter", &Texts::enter},
-        {"done", &Texts::done},
-        {"between", &Texts::between},
-        {"anyKey", &Texts::anyKey},
-        {"loading", &Texts::loading},
-        {"unfocused", &Texts::unfocused},
-        {"leave", &Texts::leave},
-        {"leaveNote", &Texts::leaveNote},
-        {"stay", &Texts::stay},
-        {"end", &Texts::end},
-        {"declined", &Texts::declined},
-        {"rest", &Texts::rest},
-        {"id", &Texts::id},
-        {"idNote", &Texts::idNote},
-        {"idMalformed", &Texts::idMalformed},
-        {"idTaken", &Texts::idTaken},
-        {"rehearsal", &Texts::rehearsal},
-        {"untimed", &Texts::untimed},
-        {"resume", &Texts::resume},
-        {"otherId", &Texts::otherId},
-    };
-    return keys;
-}
-
-const std::string& Texts::at(std::string_view key) const {
-    const auto known = std::find_if(textKeys().begin(), textKeys().end(),
-                                    [&](const TextKey& text) { return text.name == key; });
-    return known == textKeys().end() ? own.find(key)->second : this->*known->text;
-}
 
 const View& Protocol::view(const std::string& wanted) const { return find(views, wanted); }
 const Level& Protocol::level(const std::string& wanted) const { return find(levels, wanted); }

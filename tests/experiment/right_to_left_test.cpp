@@ -1,4 +1,5 @@
 #include "experiment/pages.h"
+#include "experiment/script.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
