@@ -76,7 +76,7 @@ class Listener : public Observer {
             coming_ = coming_ && event.kind != Event::Kind::release;
         return events;
     }
-    void preparePage(const Phase& page) override { presenter_.preparePage(page); }
+    void preparePage(const Phase&) override {}
     bool rest() override { return true; }
     void thank() override {}
     void decline() override {}
@@ -119,7 +119,8 @@ class QuietTest : public testing::TestWithParam<fs::path> {
         const fs::path protocol = folder.path() / "study.toml", stimuli = folder.path() / "stimuli";
         writeFile(protocol, test::hastened(readFile(method)));
         test::writeNoiseStimuli(readProtocol(protocol), stimuli);
-        const Study study = openStudy(protocol, stimuli);
+        Study study = openStudy(protocol, stimuli);
+        study.protocol.before.clear(); // only trials are listened to
         test::Receiver receiver(SOCK_STREAM);
         Display display(
             {{"quiet", 1, std::nullopt}, study.protocol.trial.grey, true, receiver.url()},
