@@ -66,21 +66,23 @@ TEST(Trigger, CountsAreOfASession) {
 }
 
 // More than the system keeps for it. What it reads afterwards are whole lines, each that was sent,
-// in order, and what is sent then arrives too.
+// in order.
 TEST(Trigger, AReceiverThatStopsReadingCostsItsOwnLinesOnly) {
     test::Receiver receiver(SOCK_STREAM);
-    const auto trigger = openTrigger(receiver.url());
+    auto trigger = openTrigger(receiver.url());
     int last = 0;
     while (trigger->counts()["dropped"] < 1000)
         trigger->send(mark(++last));
     const auto sent = trigger->counts()["sent"].get<std::size_t>();
-    std::vector<std::string> lines = receiver.lines(sent - 1); // the last may wait for its rest
-    trigger->send(mark(++last));
-    for (const std::string& more : receiver.lines(sent + 1 - lines.size()))
+    std::vector<std::string> lines = receiver.lines(sent / 2);
+    while (trigger->counts()["sent"] == sent)
+        trigger->send(mark(++last)); // until there is room again
+    trigger.reset();
+    for (const std::string& more : receiver.lines(sent)) // to the end
         lines.push_back(more);
     ASSERT_EQ(lines.size(), sent + 1);
     for (std::size_t i = 0; i < sent; ++i)
-        ASSERT_EQ(json::parse(lines[i])["trial"], i + 1);
+        ASSERT_EQ(json::parse(lines[i], nullptr, false).value("trial", 0), i + 1) << lines[i];
     EXPECT_EQ(json::parse(lines.back())["trial"], last);
 }
 
