@@ -1,6 +1,7 @@
 #include "experiment/display.h"
 
 #include "base/error.h"
+#include "experiment/open_trigger.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

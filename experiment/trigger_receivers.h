@@ -2,6 +2,9 @@
 
 #include "experiment/trigger.h"
 
+#include <memory>
+#include <string>
+
 namespace obscura {
 
 // What openTrigger() opens. Errors say what is wrong with the receiver, not where it stands.
