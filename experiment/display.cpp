@@ -1,7 +1,7 @@
 #include "experiment/display.h"
 
 #include "base/error.h"
-#include "experiment/trigger_receivers.h"
+#include "experiment/open_trigger.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

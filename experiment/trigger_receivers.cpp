@@ -20,7 +20,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <regex>
 #include <utility>
 
 namespace obscura {
@@ -248,6 +247,8 @@ void setUp(const Descriptor& port) {
         throw Error(fmt::format("it does not do 115,200 baud: {}", std::strerror(errno)));
 }
 
+} // namespace
+
 std::unique_ptr<Trigger> openSocket(bool stream, const std::string& host, const std::string& port) {
     addrinfo wanted{};
     wanted.ai_socktype = stream ? SOCK_STREAM : SOCK_DGRAM;
@@ -280,29 +281,6 @@ std::unique_ptr<Trigger> openLsl() {
     auto outlet = std::make_unique<Lsl>();
     outlet->await();
     return outlet;
-}
-
-} // namespace
-
-std::unique_ptr<Trigger> openTrigger(const std::string& receiver) {
-    static const std::regex address(
-        R"((tcp|udp)://(\[([0-9A-Fa-f:.%\w]+)\]|[^:/\[\]]+):(\d{1,5}))");
-    static const std::string serial = "serial:";
-    std::smatch part;
-    try {
-        if (receiver == "lsl")
-            return openLsl();
-        if (receiver.starts_with(serial + "/"))
-            return openSerial(receiver.substr(serial.size()));
-        if (std::regex_match(receiver, part, address))
-            if (const int port = std::stoi(part[4]); port >= 1 && port <= 65535)
-                return openSocket(part[1] == "tcp", part[3].matched ? part[3] : part[2], part[4]);
-    } catch (const Error& error) {
-        throw Error(fmt::format("--trigger {}: {}", receiver, error.what()));
-    }
-    throw Error(fmt::format("--trigger: expected tcp://HOST:PORT, udp://HOST:PORT, "
-                            "serial:/dev/NAME or lsl, found \"{}\"",
-                            receiver));
 }
 
 } // namespace obscura

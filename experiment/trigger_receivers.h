@@ -7,9 +7,9 @@
 
 namespace obscura {
 
-// A line of JSON for each onset goes to tcp://HOST:PORT, udp://HOST:PORT, or, where the library of
-// Lab Streaming Layer is found, to the outlet "Obscura" (lsl); a byte, the number of the phase, to
-// serial:/dev/NAME (115,200 baud, 8N1). An Error when the text is none of these, or nobody listens.
-std::unique_ptr<Trigger> openTrigger(const std::string& receiver);
+// What openTrigger() opens. Errors say what is wrong with the receiver, not where it stands.
+std::unique_ptr<Trigger> openSocket(bool stream, const std::string& host, const std::string& port);
+std::unique_ptr<Trigger> openSerial(const std::string& device);
+std::unique_ptr<Trigger> openLsl();
 
 } // namespace obscura

@@ -236,6 +236,7 @@ std::size_t SessionData::trials() const {
         indices.insert(row.trialIndex);
     for (const auto& [row, place] : phases)
         indices.insert(row.trial.trialIndex);
+    indices.erase(0); // pages around the trials
     return indices.size();
 }
 

@@ -32,8 +32,11 @@ void eachOfKey(Key& key, Visit& visit) {
     visit("simulated", "1 when a program answered, not a person", key.simulated);
     visit("rehearsal", "1 when the session was a rehearsal, which does not count", key.rehearsal);
     visit("slot_id", "Place in the ordering scheme, claimed from the ledger, from 1", key.slotId);
-    visit("trial_index", "Position of the trial in the session, from 1", key.trialIndex);
-    visit("trial_kind", "practice, main or catch", key.trialKind);
+    visit("trial_index",
+          "Position of the trial in the session, from 1; 0 for pages around the trials",
+          key.trialIndex);
+    visit("trial_kind", "practice, main or catch; before or after for pages around the trials",
+          key.trialKind);
     visit("repeat_index", "Which presentation of this condition to this participant, from 1",
           key.repeatIndex);
     visit("block", "Block of the session, from 1", key.block);
@@ -148,21 +151,29 @@ bool parse(bool& flag, const std::string& cell) {
     return cell == "0" || cell == "1";
 }
 
-// Columns whose texts tell lines, people, conditions and questions apart; all but the last two are
-// never empty.
+// Columns whose texts tell lines, people, conditions and questions apart; all but the last three
+// are never empty.
 bool isName(std::string_view column) {
-    constexpr std::string_view names[] = {"row_id",     "study_id", "participant_id",
-                                          "session_id", "phase",    "condition_id",
-                                          "question",   "roles",    "techniques"};
+    constexpr std::string_view names[] = {"row_id",       "study_id", "participant_id",
+                                          "session_id",   "phase",    "question",
+                                          "condition_id", "roles",    "techniques"};
     return std::find(std::begin(names), std::end(names), column) != std::end(names);
 }
 
 std::string faultOf(std::string_view column, const std::string& cell) {
     if (const std::string fault = foreignByte(cell); !fault.empty() || !isName(column))
         return fault;
-    if (cell.empty() && column != "roles" && column != "techniques")
+    if (cell.empty() && column != "condition_id" && column != "roles" && column != "techniques")
         return "expected text, found nothing";
     return strayName(cell);
+}
+
+template <typename Row>
+std::vector<std::string> namesOf() {
+    std::vector<std::string> names;
+    for (const TableColumn& column : columnsOf<Row>())
+        names.push_back(column.name);
+    return names;
 }
 
 // Why the record is no row; nothing when it is, which then is in `row`.
@@ -181,20 +192,20 @@ std::optional<BadRow> parseRow(const CsvRecord& record, const std::string& file,
         if (!fault.empty())
             bad = BadRow{{file, record.line, static_cast<int>(at), name}, fault};
     });
+    // Pages before and after the trials belong to no condition.
+    const bool ofTrial = row.trial.trialKind != "before" && row.trial.trialKind != "after";
+    if (!bad && ofTrial && row.trial.conditionId.empty()) {
+        const auto names = namesOf<Row>();
+        const auto column = std::find(names.begin(), names.end(), "condition_id") - names.begin();
+        bad = BadRow{{file, record.line, static_cast<int>(column) + 1, "condition_id"},
+                     "expected text, found nothing"};
+    }
     if (!bad && row.trial.schemaVersion != TrialKey().schemaVersion)
         bad = BadRow{{file, record.line, 1, "schema_version"},
                      fmt::format("expected {}, found {}: written by another version of this "
                                  "program; read it with that",
                                  TrialKey().schemaVersion, row.trial.schemaVersion)};
     return bad;
-}
-
-template <typename Row>
-std::vector<std::string> namesOf() {
-    std::vector<std::string> names;
-    for (const TableColumn& column : columnsOf<Row>())
-        names.push_back(column.name);
-    return names;
 }
 
 template <typename Row>

@@ -2,7 +2,7 @@
 // with its functions. Whatever they do, sending returns.
 #include "base/error.h"
 #include "base/files.h"
-#include "experiment/trigger_receivers.h"
+#include "experiment/open_trigger.h"
 #include "tests/experiment/receiver.h"
 #include "tests/experiment/tiny_study.h"
 
