@@ -1,5 +1,6 @@
 #include "analysis/chart.h"
 
+#include "analysis/verdict.h"
 #include "report/gnuplot.h"
 
 #include <fmt/format.h>
@@ -83,13 +84,18 @@ std::string labels(const std::vector<Line>& lines, const Frame& frame) {
 
 // Rows "x low high y" of the conditions that differ from an even split, or of the others; first a
 // row outside the picture, because gnuplot refuses to plot nothing.
-std::string data(const std::vector<Line>& lines, const char* name, bool different) {
+std::string data(const Findings& findings, const std::vector<Line>& lines, const char* name,
+                 bool different) {
+    const auto verdicts = verdictsOf(findings.tallies);
     std::string block = fmt::format("${} << END\n-9 -9 -9 -9\n", name);
     for (std::size_t y = 0; y < lines.size(); ++y) {
         const Tally* tally = lines[y].tally;
-        if (!tally || tally->votes.total() == 0 || differs(tally->votes) != different)
+        const auto verdict =
+            tally ? verdicts[static_cast<std::size_t>(tally - findings.tallies.data())]
+                  : std::nullopt;
+        if (!verdict || verdict->differs != different)
             continue;
-        const Interval interval = wilson(tally->votes.b, tally->votes.total());
+        const Interval interval = clopperPearson(tally->votes.b, tally->votes.total());
         block += fmt::format("{} {} {} {}\n", 100.0 * tally->votes.b / tally->votes.total(),
                              100 * interval.low, 100 * interval.high, y);
     }
@@ -108,8 +114,7 @@ std::string heading(const Findings& findings, const Frame& frame) {
                        "font 'sans-serif,64' textcolor rgb '#F3DACD'\n"
                        "set label 'votes a : b' at screen {}, screen {} center\n",
                        gnuplotBold(stamp), frame.counts(), frame.y(headHeight / 2.0)) +
-           keyEntry("exact p < .05, uncorrected", 0.02, 7, blue) +
-           keyEntry("p ≥ .05", 0.55, 6, grey);
+           keyEntry("exact p < .05, Holm", 0.02, 7, blue) + keyEntry("p ≥ .05", 0.55, 6, grey);
 }
 
 constexpr const char* style = R"(set encoding utf8
@@ -120,7 +125,7 @@ set mxtics 5
 set grid xtics linetype 1 linewidth 0.5 linecolor rgb '#DDDDDD'
 unset ytics
 unset key
-set xlabel '← more votes for a        share of votes for b, 95 % Wilson interval        more votes for b →'
+set xlabel '← more votes for a        share of votes for b, 95 % exact interval        more votes for b →'
 set arrow from first 50, graph 0 to first 50, graph 1 nohead linewidth 1.5 dashtype 2 linecolor rgb '#333333'
 set bars small
 )";
@@ -139,7 +144,7 @@ std::string chartScript(const Findings& findings) {
     const std::vector<Line> lines = linesOf(findings.tallies);
     const Frame frame = frameOf(lines);
     return style + setFrame(frame, lines.size()) + heading(findings, frame) + labels(lines, frame) +
-           data(lines, "different", true) + data(lines, "other", false) +
+           data(findings, lines, "different", true) + data(findings, lines, "other", false) +
            fmt::format(plot, blue, grey);
 }
 

@@ -1,5 +1,7 @@
 #include "analysis/findings.h"
 
+#include "analysis/verdict.h"
+
 #include "inference/tails.h"
 #include <fmt/format.h>
 
@@ -16,35 +18,40 @@ std::int64_t totalVotes(const Findings& findings) {
     return total;
 }
 
-// The tallies that have votes and for which `wanted` holds.
+bool splitsEvenly(const Votes& votes) {
+    return votes.total() == 0 || exactP(votes) >= significance;
+}
+
+// The tallies that have votes and for which `wanted` holds, given the verdict.
 template <typename Wanted>
 std::vector<Tally> select(const Findings& findings, Wanted wanted) {
+    const auto verdicts = verdictsOf(findings.tallies);
     std::vector<Tally> selected;
-    for (const Tally& tally : findings.tallies)
-        if (tally.votes.total() > 0 && wanted(tally))
-            selected.push_back(tally);
+    for (std::size_t i = 0; i < verdicts.size(); ++i)
+        if (verdicts[i] && wanted(findings.tallies[i], *verdicts[i]))
+            selected.push_back(findings.tallies[i]);
     return selected;
 }
 
 std::vector<Tally> tested(const Findings& findings) {
-    return select(findings, [](const Tally&) { return true; });
+    return select(findings, [](const Tally&, const Verdict&) { return true; });
 }
 
-std::vector<Tally> different(const Findings& findings) {
-    return select(findings, [](const Tally& tally) { return differs(tally.votes); });
+// The interval that belongs to the exact test.
+Interval intervalOf(const Tally& tally) {
+    return clopperPearson(tally.votes.b, tally.votes.total());
 }
-
-Interval intervalOf(const Tally& tally) { return wilson(tally.votes.b, tally.votes.total()); }
 
 // So many votes that hardly any preference is left to find: the interval lies around one half.
-bool isEven(const Tally& tally) {
+bool isEven(const Tally& tally, const Verdict& verdict) {
     const Interval interval = intervalOf(tally);
-    return !differs(tally.votes) && interval.low >= 0.45 && interval.high <= 0.55;
+    return !verdict.differs && interval.low >= 0.45 && interval.high <= 0.55;
 }
 
 std::vector<Tally> undecided(const Findings& findings) {
-    return select(findings,
-                  [](const Tally& tally) { return !differs(tally.votes) && !isEven(tally); });
+    return select(findings, [](const Tally& tally, const Verdict& verdict) {
+        return !verdict.differs && !isEven(tally, verdict);
+    });
 }
 
 std::string place(const Tally& tally) { return fmt::format("{}, {}", tally.scene, tally.level); }
@@ -78,33 +85,39 @@ std::string extent(const Findings& findings) {
 }
 
 std::string differences(const Findings& findings) {
-    const auto found = different(findings);
+    const auto found =
+        select(findings, [](const Tally&, const Verdict& verdict) { return verdict.differs; });
     const std::string list = found.empty() ? "" : ": " + listOf(found, preference);
     return fmt::format("{} of {} conditions {} from an even split at .05 (exact binomial test, "
-                       "uncorrected){}.",
+                       "corrected by Holm within each hypothesis){}.",
                        found.size(), tested(findings).size(),
                        found.size() == 1 ? "differs" : "differ", list);
 }
 
+// What only looks like a difference, because there are several tests.
+std::string uncorrected(const Findings& findings) {
+    const auto lost = select(findings, [](const Tally& tally, const Verdict& verdict) {
+        return !verdict.differs && !splitsEvenly(tally.votes);
+    });
+    if (lost.empty())
+        return {};
+    return fmt::format("Without the correction one would add: {}. With {} tests at .05, guessing "
+                       "alone gives up to {:.2g} such differences on average, so one small p among "
+                       "them is weak evidence.",
+                       listOf(lost, preference), tested(findings).size(),
+                       static_cast<double>(tested(findings).size()) * significance);
+}
+
 // The approximation rejects more often than it says; a reader who compares must know where.
 std::string disagreement(const Findings& findings) {
-    const auto split = select(findings, [](const Tally& tally) {
-        return !differs(tally.votes) && chiSquareP(chiSquare(tally.votes)) < significance;
+    const auto split = select(findings, [](const Tally& tally, const Verdict&) {
+        return splitsEvenly(tally.votes) && chiSquareP(chiSquare(tally.votes)) < significance;
     });
     if (split.empty())
         return {};
     return fmt::format("By chi-square alone, an approximation that is too lenient here, one "
                        "would add: {}.",
                        listOf(split, preference));
-}
-
-std::string multiplicity(const Findings& findings) {
-    const std::size_t tests = tested(findings).size();
-    if (tests < 2)
-        return {};
-    return fmt::format("With {} tests at .05, guessing alone gives up to {:.2g} such differences "
-                       "on average, so one small p among them is weak evidence.",
-                       tests, static_cast<double>(tests) * significance);
 }
 
 std::string evenSplits(const Findings& findings) {
@@ -165,7 +178,7 @@ std::string bShare(int chosen, int shown) {
 std::string unbalancedOrder(const Conduct& conduct) {
     std::string list;
     for (const auto& [condition, shown] : conduct.shown)
-        if (differs({shown.bFirst, shown.bSecond}))
+        if (!splitsEvenly({shown.bFirst, shown.bSecond}))
             list += fmt::format("{}{} (b second in {} of {})", list.empty() ? "" : ", ", condition,
                                 shown.bSecond, shown.bFirst + shown.bSecond);
     if (list.empty())
@@ -177,7 +190,7 @@ std::string unbalancedOrder(const Conduct& conduct) {
 
 std::string positionExplains(const Conduct& conduct) {
     const Votes positions{conduct.trials - conduct.secondChosen, conduct.secondChosen};
-    if (!differs(positions))
+    if (splitsEvenly(positions))
         return {};
     Conduct::Shown all;
     for (const auto& [condition, shown] : conduct.shown) {
@@ -199,7 +212,13 @@ std::string positionExplains(const Conduct& conduct) {
 
 } // namespace
 
-bool differs(const Votes& votes) { return votes.total() > 0 && exactP(votes) < significance; }
+std::vector<Tested> testsOf(const StudyData& data) {
+    std::vector<Tested> tests;
+    for (const TestKind& kind : testKinds())
+        for (StudyTest& result : kind.run(data))
+            tests.push_back({&kind, std::move(result)});
+    return tests;
+}
 
 std::string sourceOf(const Findings& findings) {
     if (!findings.conduct)
@@ -231,7 +250,7 @@ std::vector<std::string> cautionsOf(const Findings& findings) {
 std::vector<std::string> summaryOf(const Findings& findings) {
     std::vector<std::string> sentences;
     for (const std::string& sentence :
-         {extent(findings), differences(findings), disagreement(findings), multiplicity(findings),
+         {extent(findings), differences(findings), uncorrected(findings), disagreement(findings),
           evenSplits(findings), notEquivalence(findings), repeatedVotes(findings),
           missing(findings)})
         if (!sentence.empty())

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/conduct.h"
+#include "analysis/study_tests.h"
 #include "analysis/votes.h"
 
 #include <optional>
@@ -9,16 +10,20 @@
 
 namespace obscura {
 
-// A p below this is called a difference. It is not corrected for the number of tests; the summary
-// says what that means.
-constexpr double significance = 0.05;
-
 // All that one run of the analysis found; the terminal, the CSV and the report show the same.
+struct Tested {
+    const TestKind* kind;
+    StudyTest result;
+};
+// Every kind of test that applies.
+std::vector<Tested> testsOf(const StudyData& data);
+
 struct Findings {
     std::string title;
     std::vector<Tally> tallies;
     std::optional<Conduct> conduct; // absent for published counts
     std::optional<Manifest> stimuli;
+    std::vector<Tested> tests = {}; // beyond single conditions
 };
 
 // What the votes are: "participants", "SIMULATED", "partly SIMULATED" or "published counts". A
@@ -34,7 +39,5 @@ std::vector<std::string> cautionsOf(const Findings& findings);
 
 // A few plain sentences that claim no more than the numbers do.
 std::vector<std::string> summaryOf(const Findings& findings);
-
-bool differs(const Votes& votes); // exact p < significance
 
 } // namespace obscura

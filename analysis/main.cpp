@@ -47,7 +47,7 @@ void declare(CLI::App& app, Options& options) {
                                    "checks that these images were shown")
                         ->option_text("DIR");
     counts->excludes(data)->excludes(stimuli);
-    app.add_option("--out", options.out, "Folder for report.html and votes.csv")
+    app.add_option("--out", options.out, "Folder for report.html, votes.csv and tests.csv")
         ->option_text("DIR=report");
     app.add_option("--csv", options.csv, "Where the CSV goes instead of votes.csv in that folder")
         ->option_text("FILE");
@@ -73,8 +73,10 @@ void declareRules(CLI::App& app, AnswerRules& rules) {
 }
 
 Findings published(const fs::path& counts) {
-    return {fmt::format("Published counts: {}", counts.filename().string()), readCounts(counts),
-            std::nullopt, std::nullopt};
+    Findings findings{fmt::format("Published counts: {}", counts.filename().string()),
+                      readCounts(counts), std::nullopt, std::nullopt};
+    findings.tests = testsOf(studyData(findings.tallies, nullptr));
+    return findings;
 }
 
 Findings findingsOf(const Options& options) {
@@ -90,6 +92,7 @@ Findings findingsOf(const Options& options) {
     findings.title = stimuli ? stimuli->title : answers.counted.front().row.studyId;
     findings.tallies = tallyVotes(answers.counted, stimuli, answers.order);
     findings.conduct = conductOf(answers);
+    findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
     return findings;
 }
 
@@ -101,6 +104,8 @@ void printFindings(const Findings& findings) {
     fmt::print("{}\n\n{}\n", findings.title, alignedText(resultTable(findings.tallies)));
     for (const std::string& sentence : summaryOf(findings))
         fmt::print("{}\n", sentence);
+    if (const std::string tests = testsText(findings); !tests.empty())
+        fmt::print("\n{}", tests);
 }
 
 int analyse(int argc, char** argv) {
@@ -131,6 +136,7 @@ int analyse(int argc, char** argv) {
     const fs::path report = options.out / "report.html";
     const std::string page = reportHtml(findings);
     writeFile(csv, resultCsv(findings));
+    writeFile(options.out / "tests.csv", testsCsv(findings));
     writeFile(report, page);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());

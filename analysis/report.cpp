@@ -2,6 +2,7 @@
 
 #include "analysis/chart.h"
 #include "analysis/table.h"
+#include "analysis/verdict.h"
 #include "base/files.h"
 #include "base/version.h"
 #include "report/html.h"
@@ -46,24 +47,43 @@ std::string tableHtml(const Table& table, const std::vector<Tally>& tallies) {
     std::string html = fmt::format("<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n"
                                    "<tbody>\n",
                                    row("th", table, headings));
+    const auto verdicts = verdictsOf(tallies);
     for (std::size_t i = 0; i < table.rows.size(); ++i)
-        html +=
-            fmt::format("<tr{}>{}</tr>\n", differs(tallies[i].votes) ? " class=\"differs\"" : "",
-                        row("td", table, table.rows[i]));
+        html += fmt::format("<tr{}>{}</tr>\n",
+                            verdicts[i] && verdicts[i]->differs ? " class=\"differs\"" : "",
+                            row("td", table, table.rows[i]));
     return html + "</tbody></table></div>\n";
 }
 
 constexpr std::string_view tableNote = R"(<p class="aside">Votes for the more realistic of two
-images; shaded where the exact p is below .05, uncorrected for the number of tests. b share: with
-its 95 % Wilson interval, which excludes 50 % exactly where the p of χ² is below .05. χ²: against an
-even split, one degree of freedom. p (exact): two-sided binomial, and the one to trust. g: Cohen's,
-share − ½. JOD: how far b lies above a in just-objectionable differences; 1 means that 75 % prefer
-b. The CSV written with this page has all digits, and Cohen's h and w.</p>
+images; shaded where p (Holm) is below .05. b share: with the 95 % interval of Clopper
+and Pearson, which excludes 50 % exactly where p (exact) is below .05. χ²: against an even split, one degree of freedom.
+p (exact): two-sided binomial, and the one to trust. p (Holm): the same, corrected for the number of
+tests of its hypothesis, so that among them any false difference has a chance of at most 5 %. g:
+Cohen's, share − ½. JOD: how far b lies above a in just-objectionable differences; 1 means that 75 %
+prefer b. The CSV written with this page has all digits and more: other intervals, Bayes factors,
+tests of equivalence, Benjamini and Hochberg's p.</p>
 )";
 
 std::string results(const Findings& findings) {
     return "<h2>Results</h2>\n<figure>\n" + chartSvg(findings) + "</figure>\n" +
            tableHtml(resultTable(findings.tallies), findings.tallies) + std::string(tableNote);
+}
+
+std::string acrossConditions(const Findings& findings) {
+    if (findings.tests.empty())
+        return {};
+    const Table table = testTable(findings);
+    std::vector<std::string> headings;
+    for (const Table::Column& column : table.columns)
+        headings.push_back(column.heading);
+    std::string html = fmt::format("<h2>Across conditions and people</h2>\n<div class=\"wide\">"
+                                   "<table>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
+                                   row("th", table, headings));
+    for (const auto& cells : table.rows)
+        html += fmt::format("<tr>{}</tr>\n", row("td", table, cells));
+    return html + "</tbody></table></div>\n<p class=\"aside\">These p are not corrected for the "
+                  "number of tests. tests.csv has all digits.</p>\n";
 }
 
 std::string contactSheets(const Manifest& stimuli) {
@@ -161,7 +181,7 @@ std::string reportHtml(const Findings& findings) {
         loud.insert(loud.begin(), stamp);
     for (const std::string& line : loud)
         html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(line));
-    html += paragraphs(findings) + results(findings);
+    html += paragraphs(findings) + results(findings) + acrossConditions(findings);
     if (findings.stimuli)
         html += stimuliSection(*findings.stimuli);
     return html + howItWasRun(findings) + "</body>\n</html>\n";

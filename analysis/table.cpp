@@ -1,5 +1,7 @@
 #include "analysis/table.h"
 
+#include "analysis/statistics.h"
+#include "analysis/verdict.h"
 #include "base/csv.h"
 
 #include <fmt/format.h>
@@ -11,6 +13,8 @@ namespace obscura {
 
 namespace {
 
+std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
+
 std::string pText(double p) { return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p); }
 
 // With a real minus sign, and no sign for what rounds to zero.
@@ -20,19 +24,24 @@ std::string signedText(double value, int decimals) {
     return fmt::format("{}{:.{}f}", value < 0 ? "−" : "+", std::abs(value), decimals);
 }
 
+constexpr const char* dash = "–";
+
 // A column: what it says of the pair, or the statistic that it shows.
 struct Field {
     std::string_view name;
     bool number;
     std::string (*label)(const Tally&);
     std::string (*figure)(const Frequencies&) = nullptr;
+    double Verdict::*adjusted = nullptr; // or its p, adjusted
 };
 
-std::string cellOf(const Field& field, const Tally& tally, std::string_view absent) {
+std::string cellOf(const Field& field, const Tally& tally, const std::optional<Verdict>& verdict) {
     if (field.label)
         return field.label(tally);
-    const std::optional<Frequencies> statistics = frequencies(tally.votes);
-    return statistics ? field.figure(*statistics) : std::string(absent);
+    if (!verdict)
+        return dash;
+    return field.adjusted ? pText(*verdict.*field.adjusted)
+                          : field.figure(*frequencies(tally.votes));
 }
 
 template <auto field>
@@ -43,15 +52,8 @@ template <auto member>
 std::string votes(const Tally& tally) {
     return fmt::format("{}", tally.votes.*member);
 }
-template <auto field>
-std::string digits(const Frequencies& f) {
-    return fmt::format("{}", f.*field);
-}
-
 using T = Tally;
 using F = Frequencies;
-constexpr const char* dash = "–";
-
 const Field printed[] = {
     {"Level", false, text<&T::level>},
     {"Scene", false, text<&T::scene>},
@@ -61,12 +63,13 @@ const Field printed[] = {
     {"Votes a : b", true, [](const T& t) { return fmt::format("{} : {}", t.votes.a, t.votes.b); }},
     {"b share (95 %)", true, nullptr,
      [](const F& f) {
-         return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * f.share, 100 * f.wilson.low,
-                            100 * f.wilson.high);
+         return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * f.share, 100 * f.exact.low,
+                            100 * f.exact.high);
      }},
     {"χ²", true, nullptr, [](const F& f) { return fmt::format("{:.3f}", f.chiSquare); }},
     {"p (χ²)", true, nullptr, [](const F& f) { return pText(f.chiSquareP); }},
     {"p (exact)", true, nullptr, [](const F& f) { return pText(f.exactP); }},
+    {"p (Holm)", true, nullptr, nullptr, &Verdict::holm},
     {"g", true, nullptr, [](const F& f) { return signedText(f.g, 3); }},
     {"JOD", true, nullptr, [](const F& f) { return f.jod ? signedText(*f.jod, 2) : dash; }},
 };
@@ -80,16 +83,6 @@ const Field stored[] = {
     {"technique_b", false, text<&T::techniqueB>},
     {"votes_a", true, votes<&Votes::a>},
     {"votes_b", true, votes<&Votes::b>},
-    {"share_b", true, nullptr, digits<&F::share>},
-    {"wilson_low", true, nullptr, [](const F& f) { return fmt::format("{}", f.wilson.low); }},
-    {"wilson_high", true, nullptr, [](const F& f) { return fmt::format("{}", f.wilson.high); }},
-    {"chi_square", true, nullptr, digits<&F::chiSquare>},
-    {"p_chi_square", true, nullptr, digits<&F::chiSquareP>},
-    {"p_exact", true, nullptr, digits<&F::exactP>},
-    {"cohen_g", true, nullptr, digits<&F::g>},
-    {"cohen_h", true, nullptr, digits<&F::h>},
-    {"cohen_w", true, nullptr, digits<&F::w>},
-    {"jod", true, nullptr, [](const F& f) { return f.jod ? fmt::format("{}", *f.jod) : ""; }},
 };
 
 std::size_t width(const std::string& text) { // in code points
@@ -117,10 +110,11 @@ Table resultTable(const std::vector<Tally>& tallies) {
     Table table;
     for (const Field& field : printed)
         table.columns.push_back({std::string(field.name), field.number});
-    for (const Tally& tally : tallies) {
+    const auto verdicts = verdictsOf(tallies);
+    for (std::size_t i = 0; i < tallies.size(); ++i) {
         auto& row = table.rows.emplace_back();
         for (const Field& field : printed)
-            row.push_back(cellOf(field, tally, dash));
+            row.push_back(cellOf(field, tallies[i], verdicts[i]));
     }
     return table;
 }
@@ -147,13 +141,72 @@ std::string resultCsv(const Findings& findings) {
     std::string csv = "source";
     for (const Field& field : stored)
         csv += fmt::format(",{}", field.name);
-    csv += ",caution\n";
+    for (const CountStatistic& statistic : countStatistics())
+        csv += fmt::format(",{}", statistic.id);
+    csv += ",p_holm,p_benjamini_hochberg,caution\n";
     const std::string caution = fmt::format("{}", fmt::join(cautionsOf(findings), " "));
-    for (const Tally& tally : findings.tallies) {
+    const auto verdicts = verdictsOf(findings.tallies);
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+        const Tally& tally = findings.tallies[i];
         csv += csvCell(sourceOf(findings));
         for (const Field& field : stored)
-            csv.append(",").append(csvCell(cellOf(field, tally, "")));
+            csv.append(",").append(csvCell(field.label(tally)));
+        for (const CountStatistic& statistic : countStatistics())
+            csv.append(",").append(digits(verdicts[i] ? statistic.of(tally.votes) : std::nullopt));
+        csv += verdicts[i]
+                   ? fmt::format(",{},{}", verdicts[i]->holm, verdicts[i]->benjaminiHochberg)
+                   : ",,";
         csv += fmt::format(",{}\n", csvCell(caution));
+    }
+    return csv;
+}
+
+Table testTable(const Findings& findings) {
+    Table table{{{"Question"},
+                 {"About"},
+                 {"Test"},
+                 {"Statistic", true},
+                 {"df", true},
+                 {"p", true},
+                 {"To know"}},
+                {}};
+    for (const Tested& one : findings.tests) {
+        const std::optional<Test>& test = one.result.test;
+        const auto number = [&](std::optional<double> Test::*member) {
+            return test && (*test).*member ? fmt::format("{:.4g}", *((*test).*member))
+                                           : std::string(dash);
+        };
+        table.rows.push_back({std::string(one.kind->question), one.result.about,
+                              std::string(one.kind->source), number(&Test::statistic),
+                              number(&Test::df), test ? pText(test->p) : dash, one.result.note});
+    }
+    return table;
+}
+
+std::string testsText(const Findings& findings) {
+    std::string text;
+    std::string_view question;
+    for (const auto& [kind, result] : findings.tests) {
+        if (kind->question != question)
+            text += fmt::format("{}\n", kind->question);
+        question = kind->question;
+        const std::string p = !result.test             ? "no test"
+                              : result.test->p < 0.001 ? "p < 0.001"
+                                                       : fmt::format("p = {:.3f}", result.test->p);
+        text += fmt::format("  {}: {} ({}){}{}\n", result.about, p, kind->source,
+                            result.note.empty() ? "" : "; ", result.note);
+    }
+    return text;
+}
+
+std::string testsCsv(const Findings& findings) {
+    std::string csv = "source,test,question,about,statistic,df,p,note,method\n";
+    for (const auto& [kind, result] : findings.tests) {
+        const Test test = result.test.value_or(Test());
+        csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csvCell(sourceOf(findings)), kind->id,
+                           csvCell(kind->question), csvCell(result.about), digits(test.statistic),
+                           digits(test.df), result.test ? fmt::format("{}", test.p) : "",
+                           csvCell(result.note), csvCell(kind->source));
     }
     return csv;
 }

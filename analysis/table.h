@@ -18,11 +18,18 @@ struct Table {
 };
 Table resultTable(const std::vector<Tally>& tallies);
 
+// Tests beyond single conditions.
+Table testTable(const Findings& findings);
+
 // Aligned for a terminal, UTF-8; ends with a line feed.
 std::string alignedText(const Table& table);
 
 // The results as programs read them: one line per condition, every figure with all its digits, an
 // empty cell where there is none.
 std::string resultCsv(const Findings& findings);
+std::string testsCsv(const Findings& findings); // the same, a line for each test beyond conditions
+
+// The tests as a terminal shows them, each question once; ends with a line feed.
+std::string testsText(const Findings& findings);
 
 } // namespace obscura

@@ -139,6 +139,7 @@ std::optional<Frequencies> frequencies(Votes votes) {
     const double statistic = chiSquare(votes);
     return Frequencies{.share = shareOfB(votes),
                        .wilson = wilson(votes.b, votes.total()),
+                       .exact = clopperPearson(votes.b, votes.total()),
                        .chiSquare = statistic,
                        .chiSquareP = chiSquareP(statistic),
                        .exactP = exactP(votes),

@@ -82,8 +82,8 @@ double ropeProbability(Votes votes, double margin, double prior = 1);
 double probabilityOfMajority(Votes votes, double prior = 1);
 
 struct Frequencies {
-    double share = 0; // of b
-    Interval wilson;
+    double share = 0;       // of b
+    Interval wilson, exact; // Clopper and Pearson's
     double chiSquare = 0, chiSquareP = 1, exactP = 1;
     double g = 0, h = 0, w = 0;
     std::optional<double> jod;

@@ -2,6 +2,7 @@
 
 #include "analysis/golden/table.h"
 #include "analysis/golden/values.h"
+#include "analysis/statistics.h"
 #include "base/error.h"
 
 #include "inference/equivalence.h"
@@ -44,26 +45,14 @@ class Thesis {
     }
 
     void add(Values& values) const {
-        const auto chiP = [](Votes v) { return chiSquareP(chiSquare(v)); };
-        const std::pair<const char*, std::function<double(Votes)>> statistics[] = {
-            {"chisq", chiSquare},
-            {"chisq_p", chiP},
-            {"yates", chiSquareYates},
-            {"exact_p", exactP},
-            {"mid_p", midP},
-            {"cohen_g", cohenG},
-            {"cohen_w", cohenW},
-            {"cohen_h", cohenH},
-            {"jod", [](Votes v) { return valueOf(jod(v)); }},
-            {"bf10_uniform", [](Votes v) { return std::exp(logBayesFactor(v)); }},
-        };
-        for (const auto& [name, statistic] : statistics)
-            values[fmt::format("thesis.{}", name)] = each(statistic);
-        addInterval(values, "wilson", [](auto b, auto n) { return wilson(b, n); });
-        addInterval(values, "cp", [](auto b, auto n) { return clopperPearson(b, n); });
-        addInterval(values, "jeffreys", [](auto b, auto n) { return jeffreys(b, n); });
+        for (const CountStatistic& statistic : countStatistics())
+            if (!statistic.golden.empty())
+                values[fmt::format("thesis.{}", statistic.golden)] =
+                    each([&](Votes v) { return valueOf(statistic.of(v)); });
+        values["thesis.bf10_uniform"] = each([](Votes v) { return std::exp(logBayesFactor(v)); });
         for (const auto& [name, p] :
-             {std::pair("chisq", each(chiP)), std::pair("exact", each(exactP))}) {
+             {std::pair("chisq", each([](Votes v) { return chiSquareP(chiSquare(v)); })),
+              std::pair("exact", each(exactP))}) {
             values[fmt::format("thesis.holm_{}_all{}", name, p.size())] = holm(p);
             values[fmt::format("thesis.bh_{}_all{}", name, p.size())] = benjaminiHochberg(p);
         }
@@ -85,14 +74,6 @@ class Thesis {
             values.push_back(statistic(votes));
         return values;
     }
-    void addInterval(Values& values, const char* name,
-                     const std::function<Interval(std::int64_t, std::int64_t)>& of) const {
-        values[fmt::format("thesis.{}_lo", name)] =
-            each([&](Votes v) { return of(v.b, v.total()).low; });
-        values[fmt::format("thesis.{}_hi", name)] =
-            each([&](Votes v) { return of(v.b, v.total()).high; });
-    }
-
     std::vector<Votes> votes_;
 };
 

@@ -76,7 +76,7 @@ TEST_F(Program, ReproducesTable4FromThePublishedCounts) {
         EXPECT_NEAR(std::stod(columns.at("p_exact")[i]), exact[i], 1e-9);
     }
     EXPECT_THAT(outcome.output, HasSubstr("moderate  sponza      Crytek24   Blizzard24     H2    "
-                                          "    11 : 25    69 % (53–82)  5.444   0.020      0.029"));
+                                          "    11 : 25    69 % (52–84)  5.444   0.020      0.029"));
     EXPECT_THAT(readFile(out() / "report.html"), HasSubstr("thesis_table4.csv"));
 }
 

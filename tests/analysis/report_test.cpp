@@ -1,6 +1,8 @@
 #include "analysis/chart.h"
 #include "analysis/report.h"
+#include "analysis/statistics.h"
 #include "analysis/table.h"
+#include "analysis/verdict.h"
 #include "base/csv.h"
 #include "report/html.h"
 #include "tests/analysis/sample_study.h"
@@ -9,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <string_view>
 
@@ -45,14 +48,32 @@ TEST(Summary, SaysNoMoreThanTheThesisCountsDo) {
     EXPECT_THAT(
         summaryOf(thesis()),
         ElementsAre("The published counts hold 252 votes on 7 conditions.",
-                    "2 of 7 conditions differ from an even split at .05 (exact binomial test, "
-                    "uncorrected): 25 of 36 chose Blizzard24 over Crytek24 (sponza, moderate); 25 "
-                    "of 36 chose Blizzard24 over None (sponza, high).",
-                    "With 7 tests at .05, guessing alone gives up to 0.35 such differences on "
-                    "average, so one small p among them is weak evidence.",
-                    "For the other 5 the data do not decide: a large p, even 1, does not show that "
-                    "two images look equally real, and the intervals leave room for shares from 27 "
-                    "to 75 %."));
+                    "0 of 7 conditions differ from an even split at .05 (exact binomial test, "
+                    "corrected by Holm within each hypothesis).",
+                    "Without the correction one would add: 25 of 36 chose Blizzard24 over Crytek24 "
+                    "(sponza, moderate); 25 of 36 chose Blizzard24 over None (sponza, high). With "
+                    "7 tests at .05, guessing alone gives up to 0.35 such differences on average, "
+                    "so one small p among them is weak evidence.",
+                    "For all 7 the data do not decide: a large p, even 1, does not show that "
+                    "two images look equally real, and the intervals leave room for shares from 26 "
+                    "to 84 %."));
+}
+
+// Holm and Benjamini-Hochberg within each hypothesis, and among those that have none, against
+// psychophysics.md 5.1: .0864 for H1, .1153 for H2.
+TEST(Verdict, IsCorrectedWithinItsHypothesis) {
+    Findings findings = thesis();
+    const auto verdicts = verdictsOf(findings.tallies);
+    EXPECT_NEAR(verdicts[2]->holm, 0.1153, 5e-5);
+    EXPECT_NEAR(verdicts[2]->benjaminiHochberg, 0.1153, 5e-5);
+    EXPECT_NEAR(verdicts[4]->holm, 3 * 0.0288167196559, 1e-9);
+    EXPECT_FALSE(verdicts[2]->differs || verdicts[4]->differs);
+    findings.tallies[4].hypothesis = "alone";
+    EXPECT_TRUE(verdictsOf(findings.tallies)[4]->differs) << "a family of one";
+    EXPECT_THAT(summaryOf(findings)[1], HasSubstr("1 of 7 conditions differs"));
+    EXPECT_THAT(resultTable(findings.tallies).rows[4], testing::Contains("0.029"));
+    findings.tallies[4].votes = {};
+    EXPECT_FALSE(verdictsOf(findings.tallies)[4].has_value());
 }
 
 TEST(Summary, SaysWhereOnlyTheApproximationRejects) {
@@ -61,7 +82,8 @@ TEST(Summary, SaysWhereOnlyTheApproximationRejects) {
     findings.tallies[0].votes = {24, 12}; // p .0455 by chi-square, .065 exactly
     EXPECT_THAT(joined(summaryOf(findings)),
                 HasSubstr("0 of 1 conditions differ from an even split at .05 (exact binomial "
-                          "test, uncorrected).\nBy chi-square alone, an approximation that is too "
+                          "test, corrected by Holm within each hypothesis).\nBy chi-square alone, "
+                          "an approximation that is too "
                           "lenient here, one would add: 24 of 36 chose Crytek24 over Blizzard24"));
 }
 
@@ -71,7 +93,7 @@ TEST(Summary, DoesNotTakeNoDifferenceForEquality) {
         tally.votes = {18, 18};
     EXPECT_THAT(joined(summaryOf(findings)),
                 HasSubstr("0 of 7 conditions differ from an even split at .05 (exact binomial "
-                          "test, uncorrected)."));
+                          "test, corrected by Holm within each hypothesis)."));
     EXPECT_THAT(joined(summaryOf(findings)), HasSubstr("For all 7 the data do not decide:"));
 }
 
@@ -97,27 +119,36 @@ TEST(Table, ShowsAbsentFiguresAsADash) {
     unanimous.votes = {0, 9};
     const Table table = resultTable({none, unanimous});
     EXPECT_THAT(table.rows[0],
-                ElementsAre("", "", "", "", "", "0 : 0", "–", "–", "–", "–", "–", "–"));
-    EXPECT_EQ(table.rows[1][10], "+0.500");
-    EXPECT_EQ(table.rows[1][11], "–");
+                ElementsAre("", "", "", "", "", "0 : 0", "–", "–", "–", "–", "–", "–", "–"));
+    EXPECT_EQ(table.rows[1][11], "+0.500");
+    EXPECT_EQ(table.rows[1][12], "–");
 }
 
 TEST(Table, HasThesisTable4InItsCsv) {
     const auto records = splitCsv(resultCsv(thesis()));
     ASSERT_EQ(records.size(), 8u);
-    EXPECT_EQ(fmt::format("{}", fmt::join(records[0].cells, ",")),
-              "source,condition_id,level,scene,hypothesis,technique_a,technique_b,votes_a,votes_b,"
-              "share_b,wilson_low,wilson_high,chi_square,p_chi_square,p_exact,cohen_g,cohen_h,"
-              "cohen_w,jod,caution");
+    const std::vector<std::string>& names = records[0].cells;
+    EXPECT_THAT(fmt::format("{}", fmt::join(names, ",")),
+                testing::StartsWith("source,condition_id,level,scene,hypothesis,technique_a,"
+                                    "technique_b,votes_a,votes_b,share_b,wilson_low,"));
+    EXPECT_EQ(names.back(), "caution");
+    const auto cell = [&](const char* name, std::size_t condition = 3) {
+        return std::stod(records[condition].cells.at(
+            static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())));
+    };
     EXPECT_EQ(records[3].cells[0], "published counts");
-    EXPECT_NEAR(std::stod(records[3].cells[12]), 49.0 / 9, 1e-12);
+    EXPECT_NEAR(cell("chi_square"), 49.0 / 9, 1e-12);
+    EXPECT_NEAR(cell("p_holm"), 0.1153, 5e-5);
+    EXPECT_NEAR(cell("clopper_pearson_low"), 0.5189, 5e-5);
+    EXPECT_NEAR(cell("smallest_margin", 1), 0.147, 5e-4); // of 18 : 18
 }
 
 TEST(Table, LeavesCsvCellsEmptyWhereThereIsNoFigure) {
     Findings findings = thesis();
     findings.tallies.resize(1);
     findings.tallies[0].votes = {};
-    EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0,,,,,,,,,,,\n"));
+    const std::string empty(countStatistics().size() + 3, ','); // and p of two kinds, and cautions
+    EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0" + empty + "\n"));
 }
 
 TEST(Chart, IsSvgWithEveryLabelAndCount) {

@@ -75,7 +75,14 @@ using Kind = obscura::test::Disturbance::Kind;
 // These stand before the libraries' own.
 extern "C" {
 
-#if !defined(__SANITIZE_ADDRESS__) // which has its own
+#if defined(__SANITIZE_ADDRESS__) // as gcc says that it has functions of its own
+#define OBSCURA_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) // as clang does
+#define OBSCURA_SANITIZED
+#endif
+#endif
+#if !defined(OBSCURA_SANITIZED)
 
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);
