@@ -152,14 +152,15 @@ TEST(Languages, TheProgramsTranslationsAreWhole) {
             EXPECT_THAT(texts.resume, HasSubstr(number)) << tag;
         }
         const std::string file = fmt::format(OBSCURA_SOURCE "/protocols/languages/{}.toml", tag);
-        for (const auto& [key, value] : toml::parse_file(file))
-            EXPECT_TRUE(key.str() == "name" ||
-                        std::any_of(textKeys().begin(), textKeys().end(),
-                                    [&](const TextKey& known) {
-                                        return known.name == key.str() &&
-                                               !(Texts().*known.text).empty();
-                                    }))
-                << file << ": " << key.str();
+        for (const auto& entry : toml::parse_file(file)) {
+            const std::string_view key = entry.first.str();
+            EXPECT_TRUE(key == "name" || std::any_of(textKeys().begin(), textKeys().end(),
+                                                     [&](const TextKey& known) {
+                                                         return known.name == key &&
+                                                                !(Texts().*known.text).empty();
+                                                     }))
+                << file << ": " << key;
+        }
     }
 }
 
