@@ -25,9 +25,9 @@ struct Maximum {
 // Optimization, 2nd ed., algorithm 6.1), then Newton's steps with the second derivative as the
 // central difference of the gradient. `covariance` is a guess at the inverse of minus the second
 // derivative: it sets the scale of each direction and must be positive definite. Reached means
-// that the last Newton step was at most 1e-4 standard errors long, so that x is right to some square
-// of that, and that no standard error is beyond a thousand times that of the guess, as on the way to
-// an infinite maximum.
+// that the last Newton step was at most 1e-4 standard errors long, so that x is right to some
+// square of that, and that no standard error is beyond a thousand times that of the guess, as on
+// the way to an infinite maximum.
 Maximum maximise(const Objective& objective, const Eigen::VectorXd& start,
                  const Eigen::MatrixXd& covariance);
 
