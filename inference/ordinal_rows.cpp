@@ -85,7 +85,9 @@ void OrdinalRows::addRow(Index row, double upper, double lower, VectorXd& gradie
         gradient[k] += upper;
     if (k > 0)
         gradient[k - 1] += lower;
-    gradient.segment(thresholds_, columns) -= (upper + lower) * data_.design.row(row).transpose();
+    if (columns > 0) // thresholds alone have no design to point into
+        gradient.segment(thresholds_, columns) -=
+            (upper + lower) * data_.design.row(row).transpose();
 }
 
 } // namespace obscura
