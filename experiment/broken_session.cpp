@@ -1,6 +1,5 @@
 #include "experiment/broken_session.h"
 
-#include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
 #include "experiment/machine.h"
@@ -28,7 +27,7 @@ constexpr int clockTolerance = 60; // seconds by which the clock may have been c
 // One entry of a journal that began with "trial_started": its answers once it was finished.
 struct JournalTrial {
     std::string condition;
-    std::optional<std::string> answers; // lines of that table
+    std::optional<std::vector<AnswerRow>> answers;
     bool interrupted = false;
 };
 
@@ -39,17 +38,6 @@ struct Journal {
     std::string ended;                // the last reason; "" for none
     std::string time;                 // of the last entry
 };
-
-bool anyInterrupted(const std::string& phases) {
-    const std::vector<CsvRecord> header = splitCsv(phaseHeader());
-    const auto& names = header.front().cells;
-    const auto column = static_cast<std::size_t>(
-        std::find(names.begin(), names.end(), "interrupted") - names.begin());
-    const std::vector<CsvRecord> lines = splitCsv(phases);
-    return std::any_of(lines.begin(), lines.end(), [&](const CsvRecord& line) {
-        return column < line.cells.size() && line.cells[column] == "1";
-    });
-}
 
 JournalTrial& trialOf(Journal& journal, const json& entry) {
     const int number = entry.at("trial");
@@ -70,8 +58,10 @@ void add(Journal& journal, const json& entry) {
         trialOf(journal, entry).condition = entry.at("condition");
     } else if (event == "trial_finished") {
         JournalTrial& trial = trialOf(journal, entry);
-        trial.answers = entry.at("answers");
-        trial.interrupted = anyInterrupted(entry.at("phases"));
+        trial.answers = answerRowsOf(entry.at("answers"), "answers");
+        const std::vector<PhaseRow> phases = phaseRowsOf(entry.at("phases"), "phases");
+        trial.interrupted = std::any_of(phases.begin(), phases.end(),
+                                        [](const PhaseRow& phase) { return phase.interrupted; });
     } else if (event == "page_finished") {
         journal.pages.insert(
             pageKey(entry.at("pages").get<std::string>(), entry.at("page").get<std::string>()));
@@ -126,22 +116,15 @@ void checkAge(double seconds, int minutes, const std::string& time) {
 }
 
 // By name, what an order may depend on: of an answer about images the roles, else the value.
-std::map<std::string, std::string> answersIn(const std::string& lines, const Trial& trial) {
+std::map<std::string, std::string> answersIn(const std::vector<AnswerRow>& rows,
+                                             const Trial& trial) {
     std::map<std::string, bool> images;
     for (const Phase& phase : phasesOf(trial))
         for (const Question& question : phase.questions)
             images[question.name] = question.images;
-    const std::vector<std::string> names = splitCsv(answerHeader()).front().cells;
-    const auto cell = [&](const CsvRecord& line, const char* name) {
-        return line.cells.at(
-            static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin()));
-    };
     std::map<std::string, std::string> answers;
-    for (const CsvRecord& line : splitCsv(lines)) {
-        const std::string name = cell(line, "question");
-        const std::string role = cell(line, "role");
-        answers[name] = images[name] && !role.empty() ? role : cell(line, "value");
-    }
+    for (const AnswerRow& row : rows)
+        answers[row.question] = images[row.question] && !row.role.empty() ? row.role : row.value;
     return answers;
 }
 

@@ -73,9 +73,12 @@ void noteStop(Recorder& recorder, const std::string& why) {
 }
 
 // What goes on after what was before; nothing was, for a new session.
-bool run(const Study& study, const DataFolder& folder, const BrokenSession& before, bool resumed,
+bool run(const Study& study, const DataFolder& folder, const BrokenSession& before,
          Observer& observer) {
+    throwIfEnded();
+    folder.prepare();
     const SessionId& session = before.session;
+    const bool resumed = before.slot > 0;
     Ledger ledger(folder.ledger());
     std::optional<Claim> claim;
     const std::string designSha256 = sha256(study.design());
@@ -135,16 +138,12 @@ bool run(const Study& study, const DataFolder& folder, const BrokenSession& befo
 
 bool runSession(const Study& study, const DataFolder& folder, const SessionId& session,
                 Observer& observer) {
-    throwIfEnded();
-    folder.prepare();
-    return run(study, folder, {session, 0, {}, 0, {}, {}}, false, observer);
+    return run(study, folder, {session, 0, {}, 0, {}, {}}, observer);
 }
 
 bool resumeSession(const Study& study, const DataFolder& folder, const BrokenSession& broken,
                    Observer& observer) {
-    throwIfEnded();
-    folder.prepare();
-    return run(study, folder, broken, true, observer);
+    return run(study, folder, broken, observer);
 }
 
 } // namespace obscura

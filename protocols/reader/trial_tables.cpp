@@ -209,8 +209,7 @@ std::optional<BadRow> parseRow(const CsvRecord& record, const std::string& file,
 }
 
 template <typename Row>
-TrialTable<Row> read(const std::filesystem::path& path, bool lenient) {
-    const std::string file = path.string(), content = readFile(path);
+TrialTable<Row> parse(const std::string& content, const std::string& file, bool lenient) {
     checkIsCsv(content, file);
     std::vector<CsvRecord> records = splitCsv(content);
     std::erase_if(records, isBlank);
@@ -253,11 +252,19 @@ std::string answerHeader() { return headerOf<AnswerRow>(); }
 std::string answerLine(const AnswerRow& row) { return lineOf(row); }
 
 TrialTable<PhaseRow> readPhases(const std::filesystem::path& path, bool lenient) {
-    return read<PhaseRow>(path, lenient);
+    return parse<PhaseRow>(readFile(path), path.string(), lenient);
 }
 
 TrialTable<AnswerRow> readAnswers(const std::filesystem::path& path, bool lenient) {
-    return read<AnswerRow>(path, lenient);
+    return parse<AnswerRow>(readFile(path), path.string(), lenient);
+}
+
+std::vector<PhaseRow> phaseRowsOf(const std::string& lines, const std::string& file) {
+    return parse<PhaseRow>(phaseHeader() + lines, file, false).rows;
+}
+
+std::vector<AnswerRow> answerRowsOf(const std::string& lines, const std::string& file) {
+    return parse<AnswerRow>(answerHeader() + lines, file, false).rows;
 }
 
 } // namespace obscura

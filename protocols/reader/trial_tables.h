@@ -73,4 +73,8 @@ struct TrialTable {
 TrialTable<PhaseRow> readPhases(const std::filesystem::path& path, bool lenient);
 TrialTable<AnswerRow> readAnswers(const std::filesystem::path& path, bool lenient);
 
+// Lines as the journal keeps them, without a header; `file` is what errors name.
+std::vector<PhaseRow> phaseRowsOf(const std::string& lines, const std::string& file);
+std::vector<AnswerRow> answerRowsOf(const std::string& lines, const std::string& file);
+
 } // namespace obscura
