@@ -20,23 +20,27 @@ std::uint64_t personOf(const Vote& row) {
     return std::uint64_t{row.studyId.number()} << 32 | row.participantId.number();
 }
 
-// Conditions, by their place among the tallies, that compare the same two techniques and have
-// votes; those of one pair.
+// Conditions, by their place among the tallies, that compare the same two techniques at several
+// levels and have votes: all of them and, where other scenes are among them, those of one scene,
+// which differ in nothing but the level.
 using Group = std::vector<std::size_t>;
 
 std::vector<Group> groupsOf(const std::vector<Tally>& tallies) {
-    std::map<std::pair<std::string, std::string>, Group> groups;
+    std::map<std::pair<std::string, std::string>, std::map<std::string, Group>> pairs; // by scene
     for (std::size_t i = 0; i < tallies.size(); ++i)
         if (tallies[i].votes.total() > 0)
-            groups[{tallies[i].techniqueA, tallies[i].techniqueB}].push_back(i);
+            for (const std::string& scene : {std::string(), tallies[i].scene})
+                pairs[{tallies[i].techniqueA, tallies[i].techniqueB}][scene].push_back(i);
     std::vector<Group> several;
-    for (const auto& [pair, group] : groups) {
-        std::set<std::string> levels;
-        for (const std::size_t member : group)
-            levels.insert(tallies[member].level);
-        if (levels.size() >= 2)
-            several.push_back(group);
-    }
+    for (const auto& [pair, scenes] : pairs)
+        for (const auto& [scene, group] : scenes) {
+            std::set<std::string> levels;
+            for (const std::size_t member : group)
+                levels.insert(tallies[member].level);
+            const bool again = !scene.empty() && group == scenes.begin()->second;
+            if (levels.size() >= 2 && !again)
+                several.push_back(group);
+        }
     return several;
 }
 
@@ -255,14 +259,14 @@ std::vector<StudyTest> mixed(const StudyData& data) {
     const MixedFit full = fitMixed(all, person), equal = fitMixed(same, person);
     const std::string people = fmt::format("between people: sd {:.2f} (logit)", full.sd);
     std::vector<StudyTest> tests = {
-        {"do the conditions differ in the share of b?",
+        {"do the conditions differ in the share of b? (likelihood ratio)",
          likelihoodRatio(equal.logLikelihood, full.logLikelihood, static_cast<int>(conditions) - 1),
          people}};
     const Eigen::Index last = full.coefficients.size() - 1;
     if (full.converged && !full.separated) {
         const double beta = full.coefficients(last), error = std::sqrt(full.covariance(last, last));
         tests.push_back(
-            {fmt::format("position: b second multiplies its odds by {:.2f}", std::exp(beta)),
+            {fmt::format("position: b second multiplies its odds by {:.2f} (Wald)", std::exp(beta)),
              Test{beta / error, std::nullopt, normalP(beta / error)}, people});
     }
     return tests;
@@ -282,7 +286,7 @@ const TestKind kinds[] = {
      positionWithinConditions},
     {"people", "Do people differ more than chance?", "Cochran's Q of people", camps},
     {"mixed", "All at once, each person with a tendency of their own",
-     "mixed logistic regression, likelihood ratio (adaptive quadrature, 15 points)", mixed},
+     "mixed logistic regression (adaptive quadrature, 15 points)", mixed},
 };
 
 } // namespace
