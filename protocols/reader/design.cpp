@@ -230,6 +230,23 @@ json toJson(const ScreenNeeds& needs) {
     return result;
 }
 
+json toJson(const Claim& claim) {
+    const auto& [name, kind, conditions, favours, margin, scores, family, place] = claim;
+    return {{"name", name},
+            {"kind", claimKindNames()[static_cast<std::size_t>(kind)]},
+            {"conditions", conditions},
+            {"favours", favours},
+            {"margin", margin},
+            {"scores", scores},
+            {"family", family}};
+}
+
+json toJson(const ExclusionRules& rules) {
+    const auto& [catches, onePosition, fastest, incomplete, interrupted, wrongMasks] = rules;
+    return {{"catches", catches},       {"onePosition", onePosition}, {"fastest", fastest},
+            {"incomplete", incomplete}, {"interrupted", interrupted}, {"wrongMasks", wrongMasks}};
+}
+
 std::vector<std::string> spelt(const std::vector<int>& keys) {
     std::vector<std::string> names;
     for (const int key : keys)
@@ -243,8 +260,8 @@ struct Parts {
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, boost, trial, before, after, keys, screen, ordering, words,
-                 translations, simulation, path, sha256] = protocol;
+                 conditions, boost, trial, before, after, keys, screen, ordering, claims,
+                 exclusions, words, translations, simulation, path, sha256] = protocol;
     const auto& [positionBias, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
@@ -269,6 +286,11 @@ Parts split(const Protocol& protocol) {
         result.procedure["before"] = toJson(before);
     if (!after.empty())
         result.procedure["after"] = toJson(after);
+    // What is claimed must not change once answers are known.
+    for (const Claim& claim : claims)
+        result.procedure["claims"].push_back(toJson(claim));
+    if (!(exclusions == ExclusionRules()))
+        result.procedure["exclusions"] = toJson(exclusions);
     if (!parts.correct.empty())
         result.procedure["correct answers"] = parts.correct;
     result.texts = {

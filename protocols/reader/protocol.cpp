@@ -236,6 +236,35 @@ std::vector<ConditionLabels> labelsOf(const std::vector<Condition>& conditions) 
     return labels;
 }
 
+bool contains(const std::vector<std::string>& ids, const std::string& id) {
+    return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
+// Main trials, whose answers are counted.
+std::vector<ClaimedCondition> claimableOf(const Protocol& protocol) {
+    std::vector<ClaimedCondition> claimable;
+    for (const Condition& one : protocol.conditions)
+        if (!contains(protocol.ordering.practice, one.id) &&
+            !contains(protocol.ordering.catches, one.id))
+            claimable.push_back(
+                {one.id, one.level,
+                 one.roles.size() == 2 && one.roles[0].name == "a" && one.roles[1].name == "b"});
+    return claimable;
+}
+
+ExclusionRules parseExclusions(TomlTable table, const Protocol& protocol) {
+    const Place place = table.has("catches") ? table.placeOf("catches") : table.place();
+    ExclusionRules rules = parseExclusions(std::move(table));
+    const bool answered =
+        std::any_of(protocol.conditions.begin(), protocol.conditions.end(), [&](const auto& one) {
+            return contains(protocol.ordering.catches, one.id) && !one.correct.empty();
+        });
+    if (rules.catches > 0 && !answered)
+        throw Error(place, "expected catch trials with a right answer (ordering.catch, and "
+                           "\"correct\" of their conditions), found none");
+    return rules;
+}
+
 std::vector<Question> questionsOf(const std::vector<Phase>& phases) {
     std::vector<Question> questions;
     for (const Phase& phase : phases)
@@ -311,6 +340,9 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
     if (auto ordering = root.table("ordering"))
         protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
                                           questionsOf(phasesOf(protocol.trial)));
+    protocol.claims = parseClaims(root, claimableOf(protocol));
+    if (auto exclusions = root.table("exclusions"))
+        protocol.exclusions = parseExclusions(std::move(*exclusions), protocol);
     if (auto screen = root.table("screen"))
         protocol.screen = parseScreenNeeds(std::move(*screen));
     if (auto keys = root.table("keys"))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "protocols/reader/boost.h"
+#include "protocols/reader/claims.h"
 #include "protocols/reader/keys.h"
 #include "protocols/reader/ordering.h"
 #include "protocols/reader/screen.h"
@@ -75,6 +76,8 @@ struct Protocol {
     Keys keys;
     ScreenNeeds screen;
     Ordering ordering;
+    std::vector<Claim> claims;
+    ExclusionRules exclusions;
     Texts texts;                     // of the first language, or the only one
     std::vector<Texts> translations; // the others, in the order of the file
     Simulation simulation;
