@@ -308,7 +308,7 @@ std::string doubtOf(const SlotRecord& record) {
     return {};
 }
 
-Claim::~Claim() {
+SlotClaim::~SlotClaim() {
     if (completed_)
         return;
     try {
@@ -321,7 +321,7 @@ Claim::~Claim() {
     }
 }
 
-void Claim::complete() {
+void SlotClaim::complete() {
     ledger_.complete(slot_);
     completed_ = true;
 }

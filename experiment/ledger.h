@@ -74,19 +74,19 @@ bool isOrphan(const SlotRecord& record);
 std::string doubtOf(const SlotRecord& record);
 
 // Holds a slot while a session runs; gives it back unless the session completes.
-class Claim {
+class SlotClaim {
   public:
-    Claim(Ledger& ledger, const SessionId& session, const std::string& design = {},
+    SlotClaim(Ledger& ledger, const SessionId& session, const std::string& design = {},
           int planned = highestSlot)
         : ledger_(ledger), slot_(ledger.claim(session, design, planned)) {}
     // Takes it back.
-    Claim(Ledger& ledger, int slot, const SessionId& session, const std::string& design = {})
+    SlotClaim(Ledger& ledger, int slot, const SessionId& session, const std::string& design = {})
         : ledger_(ledger), slot_(slot) {
         ledger.takeBack(slot, session, design);
     }
-    ~Claim();
-    Claim(const Claim&) = delete;
-    Claim& operator=(const Claim&) = delete;
+    ~SlotClaim();
+    SlotClaim(const SlotClaim&) = delete;
+    SlotClaim& operator=(const SlotClaim&) = delete;
 
     int slot() const { return slot_; }
     void complete();

@@ -140,7 +140,7 @@ void mendOrphans(const DataFolder& folder) {
         if (fs::exists(folder.journal(record.session))) {
             restoreTables(folder, record.session);
             if (endOf(folder.journal(record.session)) == "completed") {
-                Claim(ledger, record.slot, record.session, record.design).complete();
+                SlotClaim(ledger, record.slot, record.session, record.design).complete();
                 continue;
             }
         }

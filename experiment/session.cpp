@@ -80,7 +80,7 @@ bool run(const Study& study, const DataFolder& folder, const BrokenSession& befo
     const SessionId& session = before.session;
     const bool resumed = before.slot > 0;
     Ledger ledger(folder.ledger());
-    std::optional<Claim> claim;
+    std::optional<SlotClaim> claim;
     const std::string designSha256 = sha256(study.design());
     if (resumed)
         claim.emplace(ledger, before.slot, session, designSha256);

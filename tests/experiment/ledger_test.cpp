@@ -68,8 +68,8 @@ TEST_F(LedgerTest, KeepsTheHistory) {
 
 TEST_F(LedgerTest, AClaimReturnsItsSlotUnlessCompleted) {
     {
-        Claim one(ledger, {"P1", 1, false});
-        Claim two(ledger, {"P2", 1, false});
+        SlotClaim one(ledger, {"P1", 1, false});
+        SlotClaim two(ledger, {"P2", 1, false});
         two.complete();
     }
     EXPECT_EQ(ledger.records()[0].state, SlotState::returned);
@@ -196,7 +196,7 @@ TEST_F(LedgerTest, VoidingMakesNoLedger) {
 
 // Voided by a person while it ran, and given to another since.
 TEST_F(LedgerTest, ASessionDoesNotCompleteAnothersSlot) {
-    Claim mine(ledger, {"P1", 1, false});
+    SlotClaim mine(ledger, {"P1", 1, false});
     ledger.giveBack(1);
     const pid_t other = ::fork();
     if (other == 0) {

@@ -298,7 +298,7 @@ TEST_F(ResumeRefused, WhileItRuns) {
     const DataFolder data = folder();
     const BrokenSession broken = brokenSession(study, data, session);
     Ledger ledger(data.ledger());
-    const Claim claim(ledger, 1, session); // by this process
+    const SlotClaim claim(ledger, 1, session); // by this process
     Mortal observer = mortal();
     EXPECT_THAT([&] { resumeSession(study, data, broken, observer); },
                 ThrowsMessage<Error>(HasSubstr("slot 1 is in use")));
