@@ -2,6 +2,7 @@
 
 #include "analysis/verdict.h"
 
+#include "inference/multiplicity.h"
 #include "inference/tails.h"
 #include <fmt/format.h>
 
@@ -299,6 +300,22 @@ std::vector<Tally> judgeable(std::vector<Tally> tallies, const Conduct& conduct,
     return tallies;
 }
 
+// The tests of one question over several groups of conditions are a family.
+void correctGroups(std::vector<Tested>& tests) {
+    std::map<std::string_view, std::vector<Tested*>> families;
+    for (Tested& one : tests)
+        if (one.kind->groups && one.result.test)
+            families[one.kind->question].push_back(&one);
+    for (const auto& [question, family] : families) {
+        std::vector<double> p;
+        for (const Tested* one : family)
+            p.push_back(one->result.test->p);
+        const std::vector<double> adjusted = holm(p);
+        for (std::size_t i = 0; i < family.size() && family.size() > 1; ++i)
+            family[i]->holm = adjusted[i];
+    }
+}
+
 } // namespace
 
 Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
@@ -313,6 +330,7 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     findings.tallies =
         judgeable(tallyVotes(answers.counted, manifest, order), *findings.conduct, declared);
     findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
+    findings.people = peopleOf(answers.counted, findings.tallies);
     findings.claims = testClaims(declared, findings.tallies, &answers.counted);
     findings.exclusions = answers.excluded.reasons;
     if (answers.excluded.rows.empty())
@@ -340,6 +358,7 @@ std::vector<Tested> testsOf(const StudyData& data) {
     for (const TestKind& kind : testKinds())
         for (StudyTest& result : kind.run(data))
             tests.push_back({&kind, std::move(result)});
+    correctGroups(tests);
     return tests;
 }
 
@@ -367,6 +386,8 @@ std::vector<std::string> cautionsOf(const Findings& findings) {
              {positionExplains(*findings.conduct), unbalancedOrder(*findings.conduct)})
             if (!caution.empty())
                 cautions.push_back(caution);
+    for (std::string& caution : peopleCautions(findings))
+        cautions.push_back(std::move(caution));
     return cautions;
 }
 
@@ -380,6 +401,8 @@ std::vector<std::string> summaryOf(const Findings& findings) {
           unusable(findings), exclusionsOf(findings), repeatedVotes(findings), missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
+    for (std::string& sentence : peopleSentences(findings))
+        sentences.push_back(std::move(sentence));
     return sentences;
 }
 

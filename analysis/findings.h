@@ -2,6 +2,7 @@
 
 #include "analysis/claims.h"
 #include "analysis/conduct.h"
+#include "analysis/people.h"
 #include "analysis/study_tests.h"
 #include "analysis/votes.h"
 
@@ -15,6 +16,9 @@ namespace obscura {
 struct Tested {
     const TestKind* kind;
     StudyTest result;
+    // Its p, adjusted for the other groups that the same question is asked of; absent where there
+    // are none.
+    std::optional<double> holm = {};
 };
 // Every kind of test that applies.
 std::vector<Tested> testsOf(const StudyData& data);
@@ -26,6 +30,7 @@ struct Findings {
     std::optional<Manifest> stimuli;
     std::vector<Tested> tests = {};       // beyond single conditions
     std::vector<ClaimResult> claims = {}; // those that the protocol declares
+    std::optional<People> people = {};    // absent for published counts
     // What does not count, and what there would be if it did; absent where nothing is excluded.
     std::vector<Exclusion> exclusions = {};
     struct Whole {

@@ -137,6 +137,10 @@ int analyse(int argc, char** argv) {
     const std::string page = reportHtml(findings);
     writeFile(csv, resultCsv(findings));
     writeFile(options.out / "tests.csv", testsCsv(findings));
+    if (findings.people) {
+        writeFile(options.out / "people.csv", peopleCsv(findings));
+        writeFile(options.out / "times.csv", timesCsv(findings));
+    }
     writeFile(report, page);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());

@@ -22,6 +22,7 @@ struct StudyData {
     // Of each person the first answer to each condition, in the order of the tallies: 1 for b, 0
     // for a, -1 for none.
     std::vector<std::vector<int>> people;
+    bool repeats = false; // somebody answered a condition several times
 };
 StudyData studyData(std::vector<Tally> tallies, const std::vector<Answer>* answers);
 
@@ -37,6 +38,9 @@ struct StudyTest {
 struct TestKind {
     std::string_view id, question, source;
     std::vector<StudyTest> (*run)(const StudyData&); // none where it does not apply
+    // Its results answer one question for several groups of conditions: those of all kinds with
+    // that question are corrected together, by Holm.
+    bool groups = false;
 };
 std::span<const TestKind> testKinds();
 

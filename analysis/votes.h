@@ -19,6 +19,8 @@ struct Tally {
     std::string family = hypothesis;
     std::string fault = {}; // why its votes cannot be believed, whatever they are; "" for none
     double margin = 0;      // declared: within 1/2 -+ that, a split is as good as even; 0: none
+    // The same votes by the place that b was shown in; none for published counts.
+    Votes bFirst = {}, bSecond = {};
 };
 
 // One tally per condition, in the order of the stimuli's manifest (then every condition has one,

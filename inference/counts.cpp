@@ -90,6 +90,17 @@ Interval jeffreys(std::int64_t successes, std::int64_t trials, double confidence
     return {boost::math::ibeta_inv(k, rest, tail), boost::math::ibetac_inv(k, rest, tail)};
 }
 
+std::optional<EstimatedShare> balancedShare(Votes bFirst, Votes bSecond, double confidence) {
+    if (bFirst.total() == 0 || bSecond.total() == 0)
+        return std::nullopt;
+    const double p = shareOfB(bFirst), q = shareOfB(bSecond), mean = (p + q) / 2;
+    const Interval ofP = wilson(bFirst.b, bFirst.total(), confidence);
+    const Interval ofQ = wilson(bSecond.b, bSecond.total(), confidence);
+    return EstimatedShare{mean,
+                          {mean - std::hypot(p - ofP.low, q - ofQ.low) / 2,
+                           mean + std::hypot(ofP.high - p, ofQ.high - q) / 2}};
+}
+
 double cohenG(Votes votes) { return shareOfB(votes) - 0.5; }
 
 // 2 asin sqrt(p) - pi/2 = asin(2p - 1), which is exactly 0 for an even split.

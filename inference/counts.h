@@ -50,6 +50,16 @@ Interval clopperPearson(std::int64_t successes, std::int64_t trials, double conf
 // change of the limits at unanimity.
 Interval jeffreys(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
 
+// The share of b as it would be were b shown first and second equally often: the mean of its shares
+// in both orders, whatever the place adds to choices. The interval combines Wilson's of the two:
+// Newcombe, Commun. Stat. Simul. Comput. 30 (2001) 367, for other weights Zou and Donner, Stat.
+// Med. 27 (2008) 1693. Absent unless there are votes in both orders.
+struct EstimatedShare {
+    double share = 0.5;
+    Interval interval;
+};
+std::optional<EstimatedShare> balancedShare(Votes bFirst, Votes bSecond, double confidence = 0.95);
+
 // Cohen, Statistical Power Analysis, 2nd ed. 1988: g = share - 1/2 (chapter 5),
 // h = 2 asin sqrt(share) - pi/2 (chapter 6), w = sqrt(chi-square / N) = 2 |g| (chapter 7).
 double cohenG(Votes votes);
