@@ -4,15 +4,14 @@
 #include "base/percentile.h"
 
 #include "inference/agreement.h"
-#include "inference/link.h"
 #include "inference/multiplicity.h"
 #include "inference/person_rows.h"
 #include "inference/tails.h"
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -110,7 +109,9 @@ EstimatedShare shareOf(const ObserverModel& model, Eigen::Index item) {
     const Eigen::MatrixXd& c = model.scale.covariance;
     const double reach = probit(0.975) * std::sqrt(c(item, item) + c(0, 0) - 2 * c(item, 0));
     const auto share = [](double logit) { return 1 / (1 + std::exp(-logit)); };
-    return {share(distance), {share(distance - reach), share(distance + reach)}};
+    return {share(distance),
+            {share(distance - reach), share(distance + reach)},
+            normalP(distance / reach * probit(0.975))};
 }
 
 void addObservers(const std::vector<Answer>& answers, const std::vector<Tally>& tallies,
@@ -139,36 +140,49 @@ void addObservers(const std::vector<Answer>& answers, const std::vector<Tally>& 
 
 // -- Words --
 
-// Which side of an even split an interval lies on, 0 for neither.
-int sideOf(const Interval& interval) {
-    return interval.low > 0.5 ? 1 : interval.high < 0.5 ? -1 : 0;
+// Of each condition with votes, whether its p, adjusted for its family, is a difference.
+template <typename POf>
+std::vector<bool> differences(const std::vector<Tally>& tallies, const POf& pOf) {
+    std::map<std::string, std::pair<std::vector<std::size_t>, std::vector<double>>> families;
+    for (std::size_t i = 0; i < tallies.size(); ++i)
+        if (tallies[i].votes.total() > 0) {
+            auto& [members, p] = families[tallies[i].family];
+            members.push_back(i);
+            p.push_back(pOf(i));
+        }
+    std::vector<bool> differs(tallies.size());
+    for (const auto& [family, both] : families) {
+        const std::vector<double> adjustedP = holm(both.second);
+        for (std::size_t k = 0; k < adjustedP.size(); ++k)
+            differs[both.first[k]] = adjustedP[k] < significance;
+    }
+    return differs;
 }
 
-std::string percent(const EstimatedShare& share) {
-    return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * share.share, 100 * share.interval.low,
-                       100 * share.interval.high);
-}
-
-// Where another estimate of a condition's share says something else than the votes; intervals of
-// the same kind are compared (Wilson's), at 95 %, uncorrected. An estimate that does not move by
-// half a percent says nothing else.
-template <typename Other>
-std::string otherwise(const std::vector<Tally>& tallies, const Other& other) {
+// Where another estimate of the shares contradicts a verdict: by it a condition differs from an
+// even split though the verdict has no difference, or the other way round. So that this is no
+// matter of the kind of test, it must contradict the votes by chi-square, too, and move the share
+// by half a percent at least. A condition whose estimate is absent keeps its votes.
+std::string contradictions(const std::vector<Tally>& tallies,
+                           const std::vector<std::optional<EstimatedShare>>& other) {
+    const auto chi = [&](std::size_t i) { return chiSquareP(chiSquare(tallies[i].votes)); };
+    const std::vector<bool> raw = differences(tallies, chi);
+    const std::vector<bool> now =
+        differences(tallies, [&](std::size_t i) { return other[i] ? other[i]->p : chi(i); });
+    const auto verdicts = verdictsOf(tallies);
     std::string text;
     for (std::size_t i = 0; i < tallies.size(); ++i) {
         const Tally& tally = tallies[i];
-        const std::optional<EstimatedShare> share =
-            tally.votes.total() > 0 ? other(i) : std::nullopt;
-        if (!share)
+        if (!verdicts[i] || !other[i] || verdicts[i]->outcome == Verdict::Outcome::unusable)
             continue;
-        const EstimatedShare raw{static_cast<double>(tally.votes.b) /
-                                     static_cast<double>(tally.votes.total()),
-                                 wilson(tally.votes.b, tally.votes.total())};
-        if (sideOf(raw.interval) != sideOf(share->interval) &&
-            std::abs(raw.share - share->share) >= 0.005)
-            text += fmt::format("{}{} ({}, {}) {} instead of {}", text.empty() ? "" : "; ",
-                                tally.condition, tally.scene, tally.level, percent(*share),
-                                percent(raw));
+        const auto [a, b] = tally.votes;
+        const double share = static_cast<double>(b) / static_cast<double>(a + b);
+        if (now[i] != raw[i] && now[i] != verdicts[i]->differs() &&
+            std::abs(share - other[i]->share) >= 0.005)
+            text += fmt::format("{}{} ({}, {}) {:.0f} % instead of {:.0f} %, which would {}differ "
+                                "from an even split",
+                                text.empty() ? "" : "; ", tally.condition, tally.scene, tally.level,
+                                100 * other[i]->share, 100 * share, now[i] ? "" : "not ");
     }
     return text;
 }
@@ -203,14 +217,14 @@ std::string onePlace(const People& people) {
 }
 
 std::string adjusted(const Findings& findings) {
-    const std::string list = otherwise(findings.tallies, [&](std::size_t i) {
-        return balancedShare(findings.tallies[i].bFirst, findings.tallies[i].bSecond);
-    });
-    return list.empty()
-               ? ""
-               : fmt::format("CAUTION: in balanced orders the share of b would be another, "
-                             "and say something else (95 % intervals, uncorrected): {}.",
-                             list);
+    std::vector<std::optional<EstimatedShare>> shares;
+    for (const Tally& tally : findings.tallies)
+        shares.push_back(balancedShare(tally.bFirst, tally.bSecond));
+    const std::string list = contradictions(findings.tallies, shares);
+    return list.empty() ? ""
+                        : fmt::format("CAUTION: the order changes results. Were b first and second "
+                                      "equally often, its share would be: {}.",
+                                      list);
 }
 
 // Even splits are guessing or camps: as far as that can be told.
@@ -218,10 +232,8 @@ std::string camps(const Findings& findings) {
     std::string text;
     for (const char* id : {"people", "repeats"})
         if (const Tested* test = testOf(findings, id))
-            text += fmt::format(
-                        "{}{} ({}): {}", text.empty() ? "Guessing or camps? " : " Asked again, ",
-                        test->result.about, pText(test->result.test->p), test->result.note) +
-                    ".";
+            text += fmt::format("{}{} ({}): {}.", text.empty() ? "Guessing or camps: " : " ",
+                                test->result.about, pText(test->result.test->p), test->result.note);
     return text;
 }
 
@@ -245,15 +257,17 @@ std::string observersOf(const Findings& findings) {
     const auto& observers = findings.people->observers;
     if (observers.empty() || findings.people->persons.size() < 2)
         return {};
-    const std::string list =
-        otherwise(findings.tallies, [&](std::size_t i) { return observers[i]; });
-    return list.empty()
-               ? "With people's bias, lapses and reliability in the model, each preference "
-                 "stays as the votes have it."
-               : fmt::format("With people's bias, lapses and reliability in the model, a "
-                             "typical observer's share of b says something else than the "
-                             "votes (95 %, uncorrected): {}.",
-                             list);
+    const Tested* camps = testOf(findings, "people");
+    const char* unsuited = camps && camps->result.test->p < significance
+                               ? " That model knows no camps: it takes the smaller for guessing."
+                               : "";
+    const std::string list = contradictions(findings.tallies, observers);
+    return (list.empty() ? "With people's bias, lapses and reliability in the model, every "
+                           "difference stays, and there is no new one."
+                         : fmt::format("With people's bias, lapses and reliability in the model, a "
+                                       "typical observer's share of b is: {}.",
+                                       list)) +
+           std::string(unsuited);
 }
 
 std::vector<std::string> spoken(const std::vector<std::string>& sentences) {

@@ -32,9 +32,7 @@ const TestKind kinds[] = {
      "pairs of repeats against one half", conditionRepeatTests, true},
     {"logistic", "All at once, as if every vote were another person's", "logistic regression",
      logisticTests},
-    {"gee", "All at once, averages over people",
-     "generalised estimating equations (Liang and "
-     "Zeger 1986), exchangeable, robust",
+    {"gee", "All at once, averages over people", "GEE, exchangeable, robust (Liang and Zeger 1986)",
      geeTests},
     {"mixed", "All at once, each person with a tendency of their own",
      "mixed logistic regression (adaptive quadrature, 15 points)", mixedTests},

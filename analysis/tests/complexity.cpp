@@ -1,10 +1,13 @@
 #include "analysis/tests/tests.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
+#include <string_view>
 
 namespace obscura {
 
@@ -53,21 +56,43 @@ std::string confounding(const StudyData& data, const Group& group) {
     return levels.size() > 1 ? "scenes differ, too" : "";
 }
 
-// By rank: the levels in their order among the tallies, which is the protocol's, from 1.
-std::vector<double> scoresOf(const StudyData& data, const Group& group) {
+// The words for levels whose order everybody knows.
+constexpr std::array<std::string_view, 3> knownLevels = {"low", "moderate", "high"};
+
+// The group's levels from the least: in the order of those words, or else of the tallies, which is
+// the protocol's where that is known.
+std::vector<std::string> orderedLevels(const StudyData& data, const Group& group) {
     std::vector<std::string> levels;
+    for (const std::size_t member : group)
+        if (std::find(levels.begin(), levels.end(), data.tallies[member].level) == levels.end())
+            levels.push_back(data.tallies[member].level);
+    const auto rank = [](const std::string& one) {
+        return std::find(knownLevels.begin(), knownLevels.end(), one);
+    };
+    if (std::all_of(levels.begin(), levels.end(),
+                    [&](const std::string& one) { return rank(one) != knownLevels.end(); }))
+        std::sort(levels.begin(), levels.end(),
+                  [&](const auto& x, const auto& y) { return rank(x) < rank(y); });
+    return levels;
+}
+
+// Each condition's level by rank, from 1.
+std::vector<double> scoresOf(const StudyData& data, const Group& group) {
+    const std::vector<std::string> levels = orderedLevels(data, group);
     std::vector<double> scores;
-    for (const std::size_t member : group) {
-        const std::string& level = data.tallies[member].level;
-        const auto found = std::find(levels.begin(), levels.end(), level);
-        scores.push_back(static_cast<double>(found - levels.begin()) + 1);
-        if (found == levels.end())
-            levels.push_back(level);
-    }
+    for (const std::size_t member : group)
+        scores.push_back(static_cast<double>(
+                             std::find(levels.begin(), levels.end(), data.tallies[member].level) -
+                             levels.begin()) +
+                         1);
     return scores;
 }
 
-constexpr const char* scored = "levels count 1, 2, 3 ... in the protocol's order";
+std::string scoring(const StudyData& data, const Group& group) {
+    return fmt::format("levels count 1, 2, ... in this order: {}",
+                       fmt::join(orderedLevels(data, group), ", "));
+}
+
 constexpr const char* notPeople = "takes the votes for those of different people, which they are "
                                   "not: only trial by trial can decide";
 
@@ -179,7 +204,7 @@ std::vector<StudyTest> levelTrendTests(const StudyData& data) {
         return StudyTest{{},
                          complete.empty() ? std::nullopt
                                           : pairedTrend(complete, scoresOf(data, group)),
-                         scored};
+                         scoring(data, group)};
     });
 }
 
@@ -191,7 +216,7 @@ std::vector<StudyTest> homogeneityTests(const StudyData& data) {
 
 std::vector<StudyTest> totalsTrendTests(const StudyData& data) {
     return ofTotals(data, 3, [&](const std::vector<Votes>& votes, const Group& group) {
-        return StudyTest{{}, trend(votes, scoresOf(data, group)), scored};
+        return StudyTest{{}, trend(votes, scoresOf(data, group)), scoring(data, group)};
     });
 }
 

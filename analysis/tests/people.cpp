@@ -18,13 +18,22 @@ constexpr double level = 0.05; // below which words say "more than chance"
 
 // What a ratio can tell. Camps that are of one opinion throughout make people's totals vary; camps
 // whose opinions differ from condition to condition do not, and only repeats show them.
-std::string meaningOf(const VarianceRatio& ratio) {
+std::string meaningOf(const VarianceRatio& ratio, bool repeats) {
     if (ratio.test.p < level)
         return "people are of different opinions: an even split may be two camps, not guessing";
-    return ratio.ratio > 1 ? "could be chance: an even split looks like guessing, but camps that "
-                             "differ anew in each condition would look so, too"
-                           : "no more than chance: an even split looks like guessing, but camps "
-                             "that differ anew in each condition would look so, too";
+    return repeats
+               ? "could be chance; camps that differ anew in each condition look so, too"
+               : "could be chance: an even split looks like guessing, but without repeats camps "
+                 "that differ anew in each condition look so, too";
+}
+
+// What all repeats together tell of even splits.
+std::string meaningOf(const Votes& agreement, double p) {
+    if (p >= level)
+        return "as guessing would: no firm opinions can be seen";
+    return agreement.b > agreement.a
+               ? "people are of firm opinions: even splits are camps rather than guessing"
+               : "people contradict themselves more than guessing would: look at positions";
 }
 
 // The repeats of one condition: each person's votes, and how many pairs of them were in one order.
@@ -111,10 +120,11 @@ std::vector<StudyTest> varianceTests(const StudyData& data) {
                            : std::nullopt;
     if (!ratio)
         return {};
-    return {{fmt::format("people's numbers of b vary {:.2f} times as much as chance", ratio->ratio),
-             ratio->test,
-             joined({meaningOf(*ratio), data.repeats ? "the first answer of each counts" : "",
-                     leftOut(data, complete)})}};
+    return {
+        {fmt::format("people's numbers of b vary {:.2f} times as much as chance", ratio->ratio),
+         ratio->test,
+         joined({meaningOf(*ratio, data.repeats),
+                 data.repeats ? "the first answer of each counts" : "", leftOut(data, complete)})}};
 }
 
 std::vector<StudyTest> repeatTests(const StudyData& data) {
@@ -126,7 +136,9 @@ std::vector<StudyTest> repeatTests(const StudyData& data) {
         all.sameOrder += one.sameOrder;
     }
     const Votes agreement = repeatAgreement(all.cells);
-    return {{shareOf(agreement), testOf(all, agreement), orderNote(all, agreement)}};
+    const auto test = testOf(all, agreement);
+    return {{shareOf(agreement), test,
+             joined({meaningOf(agreement, test ? test->p : 1), orderNote(all, agreement)})}};
 }
 
 std::vector<StudyTest> conditionRepeatTests(const StudyData& data) {
