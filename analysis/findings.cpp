@@ -124,16 +124,15 @@ std::string evenSplits(const Findings& findings) {
         if (!verdicts[i] || verdicts[i]->outcome != Verdict::Outcome::equivalent)
             continue;
         const Tally& tally = findings.tallies[i];
-        list += fmt::format(
-            "{}{} votes, {:.1f} % of them for {} over {} ({}), lie within 50 -+ "
-            "{:.0f} %",
-            list.empty() ? "" : "; ", tally.votes.total(),
-            100.0 * static_cast<double>(tally.votes.b) / static_cast<double>(tally.votes.total()),
-            tally.techniqueB, tally.techniqueA, place(tally), 100 * verdicts[i]->margin);
+        const auto [low, high] = intervalOf(tally);
+        list += fmt::format("{}with {} votes, the share of {} over {} ({}) lies from {:.1f} to "
+                            "{:.1f} % (95 % interval), and within 50 ∓ {:.0f} % by two exact "
+                            "one-sided tests",
+                            list.empty() ? "" : "; ", tally.votes.total(), tally.techniqueB,
+                            tally.techniqueA, place(tally), 100 * low, 100 * high,
+                            100 * verdicts[i]->margin);
     }
-    return list.empty()
-               ? ""
-               : fmt::format("No noticeable preference (two exact one-sided tests): {}.", list);
+    return list.empty() ? "" : fmt::format("No noticeable preference: {}.", list);
 }
 
 std::string unusable(const Findings& findings) {

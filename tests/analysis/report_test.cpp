@@ -151,7 +151,7 @@ TEST(Table, LeavesCsvCellsEmptyWhereThereIsNoFigure) {
     findings.tallies.resize(1);
     findings.tallies[0].votes = {};
     const std::string empty(countStatistics().size() + 3, ','); // and p of two kinds, and cautions
-    EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0" + empty + "\n"));
+    EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0" + empty + "H2,,\n"));
 }
 
 TEST(Chart, IsSvgWithEveryLabelAndCount) {
