@@ -44,8 +44,8 @@ struct Field {
     std::string_view name;
     bool number;
     std::string (*label)(const Tally&);
-    std::string (*figure)(Votes) = nullptr;
-    double Verdict::*adjusted = nullptr; // or its p, adjusted
+    std::string (*figure)(const Tally&) = nullptr; // of votes
+    double Verdict::*adjusted = nullptr;           // or its p, adjusted
 };
 
 std::string cellOf(const Field& field, const Tally& tally, const std::optional<Verdict>& verdict) {
@@ -53,7 +53,7 @@ std::string cellOf(const Field& field, const Tally& tally, const std::optional<V
         return field.label(tally);
     if (!verdict)
         return dash;
-    return field.adjusted ? pText(*verdict.*field.adjusted) : field.figure(tally.votes);
+    return field.adjusted ? pText(*verdict.*field.adjusted) : field.figure(tally);
 }
 
 template <auto field>
@@ -73,16 +73,17 @@ const Field printed[] = {
     {"Hyp.", false, text<&T::hypothesis>},
     {"Votes a : b", true, [](const T& t) { return fmt::format("{} : {}", t.votes.a, t.votes.b); }},
     {"b share (95 %)", true, nullptr,
-     [](Votes v) {
-         const auto [low, high] = clopperPearson(v.b, v.total());
-         return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * shareOf(v), 100 * low, 100 * high);
+     [](const T& t) {
+         const auto [low, high] = intervalOf(t);
+         return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * shareOf(t.votes), 100 * low,
+                            100 * high);
      }},
-    {"χ²", true, nullptr, [](Votes v) { return fmt::format("{:.3f}", chiSquare(v)); }},
-    {"p (χ²)", true, nullptr, [](Votes v) { return pText(chiSquareP(chiSquare(v))); }},
-    {"p (exact)", true, nullptr, [](Votes v) { return pText(exactP(v)); }},
+    {"χ²", true, nullptr, [](const T& t) { return fmt::format("{:.3f}", chiSquare(t.votes)); }},
+    {"p (χ²)", true, nullptr, [](const T& t) { return pText(chiSquareP(chiSquare(t.votes))); }},
+    {"p (exact)", true, nullptr, [](const T& t) { return pText(exactP(t.votes)); }},
     {"p (Holm)", true, nullptr, nullptr, &Verdict::holm},
-    {"g", true, nullptr, [](Votes v) { return signedText(cohenG(v), 3); }},
-    {"JOD", true, nullptr, jodText},
+    {"g", true, nullptr, [](const T& t) { return signedText(cohenG(t.votes), 3); }},
+    {"JOD", true, nullptr, [](const T& t) { return jodText(t.votes); }},
 };
 
 const Field stored[] = {
