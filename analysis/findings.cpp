@@ -3,11 +3,13 @@
 #include "analysis/verdict.h"
 
 #include "inference/multiplicity.h"
+#include "inference/paired.h"
 #include "inference/tails.h"
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace obscura {
 
@@ -37,11 +39,6 @@ std::vector<Tally> select(const Findings& findings, Wanted wanted) {
 
 std::vector<Tally> tested(const Findings& findings) {
     return select(findings, [](const Tally&, const Verdict&) { return true; });
-}
-
-// The interval that belongs to the exact test.
-Interval intervalOf(const Tally& tally) {
-    return clopperPearson(tally.votes.b, tally.votes.total());
 }
 
 std::vector<Tally> undecided(const Findings& findings) {
@@ -94,7 +91,7 @@ std::string differences(const Findings& findings) {
 // What only looks like a difference, because there are several tests.
 std::string uncorrected(const Findings& findings) {
     const auto lost = select(findings, [](const Tally& tally, const Verdict& verdict) {
-        return !verdict.differs() && !splitsEvenly(tally.votes);
+        return !verdict.differs() && decidingP(tally) < significance;
     });
     if (lost.empty())
         return {};
@@ -125,16 +122,15 @@ std::string evenSplits(const Findings& findings) {
         if (!verdicts[i] || verdicts[i]->outcome != Verdict::Outcome::equivalent)
             continue;
         const Tally& tally = findings.tallies[i];
-        list += fmt::format(
-            "{}{} votes, {:.1f} % of them for {} over {} ({}), lie within 50 -+ "
-            "{:.0f} %",
-            list.empty() ? "" : "; ", tally.votes.total(),
-            100.0 * static_cast<double>(tally.votes.b) / static_cast<double>(tally.votes.total()),
-            tally.techniqueB, tally.techniqueA, place(tally), 100 * verdicts[i]->margin);
+        const auto [low, high] = intervalOf(tally);
+        list += fmt::format("{}with {} votes, the share of {} over {} ({}) lies from {:.1f} to "
+                            "{:.1f} % (95 % interval), and within 50 ∓ {:.0f} % by two exact "
+                            "one-sided tests",
+                            list.empty() ? "" : "; ", tally.votes.total(), tally.techniqueB,
+                            tally.techniqueA, place(tally), 100 * low, 100 * high,
+                            100 * verdicts[i]->margin);
     }
-    return list.empty()
-               ? ""
-               : fmt::format("No noticeable preference (two exact one-sided tests): {}.", list);
+    return list.empty() ? "" : fmt::format("No noticeable preference: {}.", list);
 }
 
 std::string unusable(const Findings& findings) {
@@ -208,8 +204,9 @@ std::string notEquivalence(const Findings& findings) {
 std::string repeatedVotes(const Findings& findings) {
     if (!findings.conduct || findings.conduct->mostVotes < 2)
         return {};
-    return fmt::format("Caution: some participants voted up to {} times on one condition; the "
-                       "tests take every vote for another person's, so their p are too small.",
+    return fmt::format("Some participants voted up to {} times on one condition: there, verdicts "
+                       "and intervals are of people's shares (Student's t), and the tests of votes "
+                       "beside them take every vote for another person's.",
                        findings.conduct->mostVotes);
 }
 
@@ -293,10 +290,12 @@ void markFaults(std::vector<Tally>& tallies, const Conduct& conduct) {
     }
 }
 
-std::vector<Tally> judgeable(std::vector<Tally> tallies, const Conduct& conduct,
-                             const std::vector<Claim>& claims) {
+std::vector<Tally> judgeable(std::vector<Tally> tallies, const std::vector<Answer>& answers,
+                             const Conduct& conduct, const std::vector<Claim>& claims) {
     assignFamilies(tallies, claims);
     markFaults(tallies, conduct);
+    if (conduct.mostVotes > 1)
+        judgeByPeople(tallies, answers);
     return tallies;
 }
 
@@ -327,8 +326,8 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     const auto& order = answers.declared.order;
     findings.title = manifest ? manifest->title : answers.counted.front().row.studyId;
     findings.conduct = conductOf(answers);
-    findings.tallies =
-        judgeable(tallyVotes(answers.counted, manifest, order), *findings.conduct, declared);
+    findings.tallies = judgeable(tallyVotes(answers.counted, manifest, order), answers.counted,
+                                 *findings.conduct, declared);
     findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
     findings.people = peopleOf(answers.counted, findings.tallies);
     findings.claims = testClaims(declared, findings.tallies, &answers.counted);
@@ -339,7 +338,7 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     all.counted.insert(all.counted.end(), answers.excluded.rows.begin(),
                        answers.excluded.rows.end());
     std::vector<Tally> tallies =
-        judgeable(tallyVotes(all.counted, manifest, order), conductOf(all), declared);
+        judgeable(tallyVotes(all.counted, manifest, order), all.counted, conductOf(all), declared);
     findings.whole = {tallies, testClaims(declared, tallies, &all.counted)};
     return findings;
 }

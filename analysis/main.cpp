@@ -5,6 +5,7 @@
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
 #include "analysis/report.h"
+#include "analysis/results.h"
 #include "analysis/table.h"
 #include "base/files.h"
 #include "base/version.h"
@@ -52,7 +53,7 @@ void declare(CLI::App& app, Options& options) {
                    "with claims")
         ->option_text("FILE");
     counts->excludes(data)->excludes(stimuli);
-    app.add_option("--out", options.out, "Folder for report.html, votes.csv and tests.csv")
+    app.add_option("--out", options.out, "Folder for report.html and the tables")
         ->option_text("DIR=report");
     app.add_option("--csv", options.csv, "Where the CSV goes instead of votes.csv in that folder")
         ->option_text("FILE");
@@ -141,6 +142,10 @@ int analyse(int argc, char** argv) {
         writeFile(options.out / "people.csv", peopleCsv(findings));
         writeFile(options.out / "times.csv", timesCsv(findings));
     }
+    writeFile(options.out / "results.csv", resultsCsv(findings));
+    writeFile(options.out / "results.json", resultsJson(findings));
+    if (!findings.exclusions.empty())
+        writeFile(options.out / "exclusions.csv", exclusionsCsv(findings));
     writeFile(report, page);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());

@@ -219,7 +219,8 @@ std::string onePlace(const People& people) {
 std::string adjusted(const Findings& findings) {
     std::vector<std::optional<EstimatedShare>> shares;
     for (const Tally& tally : findings.tallies)
-        shares.push_back(balancedShare(tally.bFirst, tally.bSecond));
+        shares.push_back(tally.people ? std::nullopt // its votes depend on each other
+                                      : balancedShare(tally.bFirst, tally.bSecond));
     const std::string list = contradictions(findings.tallies, shares);
     return list.empty() ? ""
                         : fmt::format("CAUTION: the order changes results. Were b first and second "

@@ -77,7 +77,7 @@ std::string positionScript(const Findings& findings, const Bins& bins) {
     return plot::style + stamp(findings) +
            fmt::format("set xrange [{}:{}]\nset yrange [0:{}]\n", -half, 100 + half, 1.08 * top) +
            "set xtics 0, 25, 100 nomirror out format '%.0f %%'\n"
-           "set ytics nomirror out\nset xlabel 'second picture chosen, of a person\\'s votes'\n"
+           "set ytics nomirror out\nset xlabel 'votes of a person for the second picture'\n"
            "set ylabel 'people'\nset key outside above left maxrows 1\n"
            "set arrow from 50, graph 0 to 50, graph 1 nohead linewidth 1 dashtype 3 "
            "linecolor rgb '#333333'\n" +

@@ -47,6 +47,16 @@ std::vector<Tally> withoutFlagged(const std::vector<Answer>& answers, std::vecto
             Votes& votes = byCondition.at(row.conditionId.number())->votes;
             --(row.choseB ? votes.b : votes.a);
         }
+    if (std::any_of(tallies.begin(), tallies.end(),
+                    [](const Tally& t) { return t.people.has_value(); })) {
+        std::vector<Answer> kept;
+        for (std::size_t i = 0; i < answers.size(); ++i)
+            if (!isFlagged[i])
+                kept.push_back(answers[i]);
+        for (Tally& tally : tallies)
+            tally.people.reset();
+        judgeByPeople(tallies, kept);
+    }
     return tallies;
 }
 
