@@ -1,5 +1,6 @@
 #include "analysis/people_figures.h"
 
+#include "analysis/verdict.h"
 #include "report/gnuplot.h"
 
 #include "inference/tails.h"
@@ -53,7 +54,7 @@ Bins binsOf(const std::vector<Person>& persons) {
     for (const Person& person : persons) {
         const std::size_t bin = binOf(person.places.b, person.trials());
         ++bins.people[bin];
-        bins.biased[bin] += flagsOf(person).size() > 0 && flagsOf(person).front() == "position";
+        bins.biased[bin] += person.holm < significance;
     }
     for (const auto& [trials, people] : numbers)
         for (std::int64_t k = 0; k <= trials; ++k)
@@ -74,22 +75,23 @@ std::string positionScript(const Findings& findings, const Bins& bins) {
     const double half = 50 / static_cast<double>(bins.last);
     const double top = std::max(*std::max_element(bins.people.begin(), bins.people.end()),
                                 *std::max_element(bins.expected.begin(), bins.expected.end()));
+    std::vector<std::string> elements = {
+        "$people using 1:2 with boxes linecolor rgb '#56B4E9' title 'people'"};
+    if (*std::max_element(bins.biased.begin(), bins.biased.end()) > 0)
+        elements.emplace_back("$people using 1:($3 > 0 ? $3 : 1/0) with boxes fillstyle pattern 2 "
+                              "border linecolor rgb '#D55E00' title 'one place more than chance'");
+    elements.emplace_back("$people using 1:4 with linespoints pointtype 6 pointsize 0.8 linewidth "
+                          "1.5 linecolor rgb '#000000' title 'expected by chance'");
     return plot::style + stamp(findings) +
            fmt::format("set xrange [{}:{}]\nset yrange [0:{}]\n", -half, 100 + half, 1.08 * top) +
-           "set xtics 0, 25, 100 nomirror out format '%.0f %%'\n"
-           "set ytics nomirror out\nset xlabel 'votes of a person for the second picture'\n"
-           "set ylabel 'people'\nset key outside above left maxrows 1\n"
+           "set xtics 0, 25, 100 nomirror out format '%.0f %%'\nset ytics nomirror out\n"
+           "set xlabel " +
+           gnuplotText("share of a person's votes for the second picture") +
+           "\nset ylabel 'people'\nset key outside above left maxrows 1\n"
            "set arrow from 50, graph 0 to 50, graph 1 nohead linewidth 1 dashtype 3 "
            "linecolor rgb '#333333'\n" +
            fmt::format("set boxwidth {} absolute\nset style fill solid 1\n", 1.6 * half) +
-           plot::block("people", rows) + "plot " +
-           plot::list(
-               {"$people using 1:2 with boxes linecolor rgb '#56B4E9' title 'people'",
-                "$people using 1:($3 > 0 ? $3 : 1/0) with boxes fillstyle pattern 2 border "
-                "linecolor rgb '#D55E00' title 'one place more than chance (p < .05 after Holm)'",
-                "$people using 1:4 with linespoints pointtype 6 pointsize 0.8 linewidth 1.5 "
-                "linecolor rgb '#000000' title 'expected by chance'"}) +
-           "\n";
+           plot::block("people", rows) + "plot " + plot::list(elements) + "\n";
 }
 
 // -- Times --
@@ -147,7 +149,8 @@ std::vector<StudyFigure> positionFigures(const Findings& findings) {
                       positionScript(findings, bins), width, positionHeight};
     figure.caption = "People by the share of their votes that went to the second picture. Where "
                      "place does not matter the bars follow the circles; people at either end "
-                     "chose a place, not a picture.";
+                     "chose a place, not a picture. Hatched: beyond chance for the person "
+                     "alone (exact p < .05 after Holm).";
     figure.numbers = {{{"Second picture chosen, %", true},
                        {"People", true},
                        {"Of them beyond chance", true},
