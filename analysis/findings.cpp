@@ -1,8 +1,8 @@
 #include "analysis/findings.h"
 
+#include "analysis/people_words.h"
 #include "analysis/verdict.h"
 
-#include "inference/multiplicity.h"
 #include "inference/paired.h"
 #include "inference/tails.h"
 #include <fmt/format.h>
@@ -299,22 +299,6 @@ std::vector<Tally> judgeable(std::vector<Tally> tallies, const std::vector<Answe
     return tallies;
 }
 
-// The tests of one question over several groups of conditions are a family.
-void correctGroups(std::vector<Tested>& tests) {
-    std::map<std::string_view, std::vector<Tested*>> families;
-    for (Tested& one : tests)
-        if (one.kind->groups && one.result.test)
-            families[one.kind->question].push_back(&one);
-    for (const auto& [question, family] : families) {
-        std::vector<double> p;
-        for (const Tested* one : family)
-            p.push_back(one->result.test->p);
-        const std::vector<double> adjusted = holm(p);
-        for (std::size_t i = 0; i < family.size() && family.size() > 1; ++i)
-            family[i]->holm = adjusted[i];
-    }
-}
-
 } // namespace
 
 Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
@@ -352,15 +336,6 @@ Findings findingsOf(std::string title, std::vector<Tally> counts,
     return findings;
 }
 
-std::vector<Tested> testsOf(const StudyData& data) {
-    std::vector<Tested> tests;
-    for (const TestKind& kind : testKinds())
-        for (StudyTest& result : kind.run(data))
-            tests.push_back({&kind, std::move(result)});
-    correctGroups(tests);
-    return tests;
-}
-
 std::string sourceOf(const Findings& findings) {
     if (!findings.conduct)
         return "published counts";
@@ -385,8 +360,10 @@ std::vector<std::string> cautionsOf(const Findings& findings) {
              {positionExplains(*findings.conduct), unbalancedOrder(*findings.conduct)})
             if (!caution.empty())
                 cautions.push_back(caution);
-    for (std::string& caution : peopleCautions(findings))
-        cautions.push_back(std::move(caution));
+    if (findings.people)
+        for (std::string& caution :
+             peopleCautions(*findings.people, findings.tallies, findings.tests))
+            cautions.push_back(std::move(caution));
     return cautions;
 }
 
@@ -400,8 +377,10 @@ std::vector<std::string> summaryOf(const Findings& findings) {
           unusable(findings), exclusionsOf(findings), repeatedVotes(findings), missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
-    for (std::string& sentence : peopleSentences(findings))
-        sentences.push_back(std::move(sentence));
+    if (findings.people)
+        for (std::string& sentence :
+             peopleSentences(*findings.people, findings.tallies, findings.tests))
+            sentences.push_back(std::move(sentence));
     return sentences;
 }
 

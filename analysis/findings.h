@@ -13,16 +13,6 @@
 namespace obscura {
 
 // All that one run of the analysis found; the terminal, the CSV and the report show the same.
-struct Tested {
-    const TestKind* kind;
-    StudyTest result;
-    // Its p, adjusted for the other groups that the same question is asked of; absent where there
-    // are none.
-    std::optional<double> holm = {};
-};
-// Every kind of test that applies.
-std::vector<Tested> testsOf(const StudyData& data);
-
 struct Findings {
     std::string title;
     std::vector<Tally> tallies;

@@ -4,6 +4,7 @@
 #include "analysis/export/command.h"
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
+#include "analysis/people_table.h"
 #include "analysis/report.h"
 #include "analysis/results.h"
 #include "analysis/table.h"

@@ -11,8 +11,6 @@
 
 namespace obscura {
 
-struct Findings;
-
 // Who answered, and how: nothing here leaves anybody out.
 struct Person {
     Symbol study, participant;
@@ -43,17 +41,5 @@ struct People {
 // Of at least one answer; `tallies` are theirs. Takes time that grows with the answers, except for
 // the observers' model, which more than 100,000 answers do without.
 People peopleOf(const std::vector<Answer>& answers, const std::vector<Tally>& tallies);
-
-// What stands above all results: that people lean to one place, and which shares are others once
-// that is allowed for.
-std::vector<std::string> peopleCautions(const Findings& findings);
-
-// In words: whether even splits are guessing or camps, flagged times, and whether results stand if
-// people's reliability is allowed for.
-std::vector<std::string> peopleSentences(const Findings& findings);
-
-// A line for each person; and one for each measure of time, with the flags of each rule.
-std::string peopleCsv(const Findings& findings);
-std::string timesCsv(const Findings& findings);
 
 } // namespace obscura

@@ -1,5 +1,5 @@
-#include "analysis/findings.h"
-#include "analysis/people.h"
+#include "analysis/people_table.h"
+
 #include "base/csv.h"
 
 #include <fmt/format.h>

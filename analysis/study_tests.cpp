@@ -2,8 +2,10 @@
 
 #include "analysis/tests/tests.h"
 
-#include <cstdint>
-#include <unordered_map>
+#include "inference/multiplicity.h"
+
+#include <map>
+#include <utility>
 
 namespace obscura {
 
@@ -38,29 +40,33 @@ const TestKind kinds[] = {
      "mixed logistic regression (adaptive quadrature, 15 points)", mixedTests},
 };
 
-} // namespace
-
-StudyData studyData(std::vector<Tally> tallies, const std::vector<Answer>* answers) {
-    StudyData data{std::move(tallies), answers, {}, false};
-    if (!answers)
-        return data;
-    std::unordered_map<std::uint32_t, std::size_t> conditions;
-    for (std::size_t i = 0; i < data.tallies.size(); ++i)
-        conditions[Symbol(data.tallies[i].condition).number()] = i;
-    std::unordered_map<std::uint64_t, std::size_t> people;
-    for (const Answer& answer : *answers) {
-        const std::size_t person =
-            people.try_emplace(answer.row.person(), people.size()).first->second;
-        if (person == data.people.size())
-            data.people.emplace_back(data.tallies.size(), -1);
-        int& first = data.people[person][conditions.at(answer.row.conditionId.number())];
-        data.repeats = data.repeats || first >= 0;
-        if (first < 0)
-            first = answer.row.choseB;
+// The tests of one question over several groups of conditions are a family.
+void correctGroups(std::vector<Tested>& tests) {
+    std::map<std::string_view, std::vector<Tested*>> families;
+    for (Tested& one : tests)
+        if (one.kind->groups && one.result.test)
+            families[one.kind->question].push_back(&one);
+    for (const auto& [question, family] : families) {
+        std::vector<double> p;
+        for (const Tested* one : family)
+            p.push_back(one->result.test->p);
+        const std::vector<double> adjusted = holm(p);
+        for (std::size_t i = 0; i < family.size() && family.size() > 1; ++i)
+            family[i]->holm = adjusted[i];
     }
-    return data;
 }
 
+} // namespace
+
 std::span<const TestKind> testKinds() { return kinds; }
+
+std::vector<Tested> testsOf(const StudyData& data) {
+    std::vector<Tested> tests;
+    for (const TestKind& kind : testKinds())
+        for (StudyTest& result : kind.run(data))
+            tests.push_back({&kind, std::move(result)});
+    correctGroups(tests);
+    return tests;
+}
 
 } // namespace obscura

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "analysis/study_tests.h"
+#include "analysis/study_data.h"
+
+#include "inference/paired.h"
 
 #include <cstddef>
 #include <string>

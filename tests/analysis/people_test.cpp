@@ -1,5 +1,7 @@
 #include "analysis/findings.h"
 #include "analysis/people_figures.h"
+#include "analysis/people_table.h"
+#include "analysis/people_words.h"
 #include "analysis/table.h"
 #include "report/gnuplot.h"
 #include "tests/analysis/sample_study.h"
@@ -134,7 +136,7 @@ TEST(People, AnOrderThatChangesAVerdictIsCautioned) {
     const Findings findings = study.findings();
     EXPECT_EQ(findings.tallies[0].bFirst.b, 12);
     EXPECT_EQ(findings.tallies[0].bSecond.b, 60);
-    EXPECT_THAT(textOf(peopleCautions(findings)),
+    EXPECT_THAT(textOf(peopleCautions(*findings.people, findings.tallies, findings.tests)),
                 HasSubstr("52 % instead of 60 %, which would not differ"));
     EXPECT_THAT(resultCsv(findings), HasSubstr(",28,12,20,60,0.525,"));
 }
@@ -183,7 +185,7 @@ TEST(People, PublishedCountsHaveNone) {
     Tally tally{"c1", "low", "atrium", "H1", "a", "b", {10, 20}};
     const Findings findings = findingsOf("counts", {tally});
     EXPECT_FALSE(findings.people);
-    EXPECT_THAT(peopleCautions(findings), IsEmpty());
+    EXPECT_THAT(cautionsOf(findings), IsEmpty());
     EXPECT_THAT(timesFigures(findings), IsEmpty());
 }
 
