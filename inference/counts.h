@@ -16,9 +16,8 @@ struct Votes {
     std::int64_t total() const { return a + b; }
 };
 
-// The functions below need at least one vote; frequencies() is the one to call for any counts.
-// requireVotes() throws their Error for none, and for negative ones. None takes time that grows
-// with the votes.
+// The functions below need at least one vote. requireVotes() throws their Error for none, and for
+// negative ones. None takes time that grows with the votes.
 void requireVotes(Votes votes);
 
 // Pearson 1900, against (N/2, N/2): (a - b)^2 / N, at one degree of freedom (chiSquareP of
@@ -50,6 +49,21 @@ Interval clopperPearson(std::int64_t successes, std::int64_t trials, double conf
 // change of the limits at unanimity.
 Interval jeffreys(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
 
+// A share of b that was not counted but estimated, and the two-sided p of one half that belongs to
+// its interval.
+struct EstimatedShare {
+    double share = 0.5;
+    Interval interval;
+    double p = 1;
+};
+
+// The share of b as it would be were b shown first and second equally often: the mean of its shares
+// in both orders, whatever the place adds to choices. The interval combines Wilson's of the two:
+// Newcombe, Commun. Stat. Simul. Comput. 30 (2001) 367, for other weights Zou and Donner, Stat.
+// Med. 27 (2008) 1693; p is where it begins to exclude one half. Absent unless there are votes in
+// both orders.
+std::optional<EstimatedShare> balancedShare(Votes bFirst, Votes bSecond, double confidence = 0.95);
+
 // Cohen, Statistical Power Analysis, 2nd ed. 1988: g = share - 1/2 (chapter 5),
 // h = 2 asin sqrt(share) - pi/2 (chapter 6), w = sqrt(chi-square / N) = 2 |g| (chapter 7).
 double cohenG(Votes votes);
@@ -80,16 +94,5 @@ double logBayesFactor(Votes votes, double prior = 1);
 double ropeProbability(Votes votes, double margin, double prior = 1);
 // The posterior probability under H1 that the share of b is above 1/2.
 double probabilityOfMajority(Votes votes, double prior = 1);
-
-struct Frequencies {
-    double share = 0;       // of b
-    Interval wilson, exact; // Clopper and Pearson's
-    double chiSquare = 0, chiSquareP = 1, exactP = 1;
-    double g = 0, h = 0, w = 0;
-    std::optional<double> jod;
-};
-
-// All of the above; absent without votes.
-std::optional<Frequencies> frequencies(Votes votes);
 
 } // namespace obscura
