@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <tuple>
 #include <unordered_map>
@@ -150,8 +151,14 @@ Conduct conductOf(const Answers& answers) {
     conduct.bad = answers.bad;
     countPeople(counted, conduct);
     countSessions(counted, conduct);
+    conduct.flow = flowOf(answers, conduct.participants, conduct.sessions);
     countTrials(counted, conduct);
     noteProvenance(counted, conduct);
+    conduct.maskTimes = countBy<int>(
+        counted, [](const Vote& row) { return static_cast<int>(std::lround(row.maskMs)); });
+    conduct.maskFrames = countBy<int>(
+        counted, [](const Vote& row) { return row.maskFramesShown - row.maskFramesPlanned; });
+    conduct.missed = countBy<int>(counted, [](const Vote& row) { return row.missedFrames; });
     conduct.maskMs = spreadOf<&Vote::maskMs>(counted);
     conduct.view1Ms = spreadOf<&Vote::view1Ms>(counted);
     conduct.view2Ms = spreadOf<&Vote::view2Ms>(counted);

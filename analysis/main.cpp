@@ -138,6 +138,7 @@ int analyse(int argc, char** argv) {
     writeFile(csv, resultCsv(findings));
     writeFile(options.out / "tests.csv", testsCsv(findings));
     writeFile(report, page);
+    writeBesideReport(options.out, csv, findings);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());
     return 0;
