@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 namespace obscura {
@@ -24,12 +25,14 @@ std::vector<StudyFigure> figuresOf(const Findings& findings) {
     return figures;
 }
 
-std::string stampScript(const Findings& findings, double width) {
+std::string stampScript(const Findings& findings, double width, double height) {
     if (stampOf(findings).empty())
         return {};
-    return fmt::format("set label {} at screen 0.5, screen 0.5 center rotate by 15 back "
+    const bool isFlat = height < 0.3 * width;
+    return fmt::format("set label {} at screen 0.5, screen 0.5 center rotate by {} back "
                        "font 'sans-serif,{:.0f}' textcolor rgb '#F3DACD'\n",
-                       gnuplotBold(sourceOf(findings) + " DATA"), 4.5 * width);
+                       gnuplotBold(sourceOf(findings) + " DATA"), isFlat ? 0 : 15,
+                       std::min(4.5 * width, 20 * height));
 }
 
 } // namespace obscura

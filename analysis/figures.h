@@ -31,7 +31,7 @@ std::vector<StudyFigure> figuresOf(const Findings& findings);
 
 // As part of a figure's script: that its data are simulated, large and pale behind everything, in a
 // picture of so many inches; "" for data of people.
-std::string stampScript(const Findings& findings, double width);
+std::string stampScript(const Findings& findings, double width, double height);
 
 // The members of figuresOf().
 std::vector<StudyFigure> sharesFigures(const Findings& findings);

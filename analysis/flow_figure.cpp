@@ -166,11 +166,13 @@ std::vector<StudyFigure> flowFigures(const Findings& findings) {
     if (!findings.conduct)
         return {};
     const Flow& flow = findings.conduct->flow;
+    if (boxesOf(flow).size() < 2) // no ledger, and nothing lost
+        return {};
     const auto draw = [&](double inches) {
         const Drawing drawing(boxesOf(flow), 96 * inches);
         return Figure{"flow", "Participants, from the first to those who count",
-                      stampScript(findings, inches) + drawing.script(), inches,
-                      drawing.height() / 96};
+                      stampScript(findings, inches, drawing.height() / 96) + drawing.script(),
+                      inches, drawing.height() / 96};
     };
     return {{draw(wideFigure),
              "Who began, who did not finish, who was excluded and why, and whose answers count. "

@@ -59,11 +59,13 @@ std::string people(const Conduct& c) {
     if (c.simulated > 0)
         text = fmt::format("SIMULATED: {} of {} trials were answered by a program. ", c.simulated,
                            c.trials);
-    text += fmt::format("{} took part in {} between {} and {} (UTC) and gave {} that count.",
-                        counted(static_cast<std::size_t>(c.participants), "participant"),
-                        counted(static_cast<std::size_t>(c.sessions), "session"),
-                        c.firstTime.substr(0, 10), c.lastTime.substr(0, 10),
-                        counted(static_cast<std::size_t>(c.trials), "answer"));
+    const std::string first = c.firstTime.substr(0, 10), last = c.lastTime.substr(0, 10);
+    text +=
+        fmt::format("{} took part in {} {} (UTC) and gave {} that count.",
+                    counted(static_cast<std::size_t>(c.participants), "participant"),
+                    counted(static_cast<std::size_t>(c.sessions), "session"),
+                    first == last ? "on " + first : fmt::format("between {} and {}", first, last),
+                    counted(static_cast<std::size_t>(c.trials), "answer"));
     std::vector<std::string> losses;
     for (const auto* some : {&c.flow.notFinished, &c.flow.excluded})
         for (const Flow::Loss& loss : *some)
@@ -88,7 +90,11 @@ std::string procedure(const Conduct& c) {
 std::string apparatus(const Conduct& c) {
     std::vector<std::string> sources;
     for (const auto& [source, trials] : c.timestampSources)
-        sources.push_back(fmt::format("{} ({} trials)", source, trials));
+        sources.push_back(fmt::format("{} ({} of {} trials)",
+                                      source == "none" ? "no vertical blank, not fit for claims "
+                                                         "about timing"
+                                                       : source,
+                                      trials, c.trials));
     const std::string rate = c.slowestHz == c.fastestHz
                                  ? fmt::format("{:.2f} Hz", c.slowestHz)
                                  : fmt::format("{:.2f} to {:.2f} Hz", c.slowestHz, c.fastestHz);

@@ -72,7 +72,8 @@ set xtics 50, 10, 100 nomirror out format '%.0f %%'
 set ytics 0, 20, 100 nomirror out format '%.0f %%'
 set xlabel 'true share of the preferred image'
 set ylabel 'chance to find it'
-set key outside above left maxcols 1
+set key outside above left maxcols 1 spacing 1.3
+set rmargin 4
 set arrow from 50, 80 to 100, 80 nohead linewidth 1 dashtype 3 linecolor rgb '#333333'
 )";
 
@@ -92,11 +93,11 @@ std::string script(const Findings& findings) {
         data += plot::block(name, curve);
         const std::string_view colour = markOf(series++).colour;
         elements.push_back(fmt::format("${} using 1:2 with lines linewidth 2 linecolor rgb '{}' "
-                                       "title '{} votes, tested alone'",
+                                       "title 'N = {}, tested alone'",
                                        name, colour, votes));
         if (family > 1)
             elements.push_back(fmt::format("${} using 1:3 with lines linewidth 2 dashtype 2 "
-                                           "linecolor rgb '{}' title '{} votes, first of {} tests'",
+                                           "linecolor rgb '{}' title 'N = {}, first of {} tests'",
                                            name, colour, votes, family));
     }
     std::string seen;
@@ -137,10 +138,10 @@ std::vector<StudyFigure> powerFigures(const Findings& findings) {
         return {};
     const auto draw = [&](double width, double height) {
         return Figure{"power", "What this study could have found",
-                      stampScript(findings, width) + script(findings), width, height};
+                      stampScript(findings, width, height) + script(findings), width, height};
     };
     return {{draw(wideFigure, 4),
-             "How often the exact test of one condition, with as many votes as there are here, "
+             "How often the exact test of one condition, with the N votes that it has, "
              "finds a difference when one exists, against how large it truly is; the dotted line "
              "is 80 %. Broken lines: as the first of Holm's tests that are corrected together. "
              "Triangles: the shares that were seen, for scale. The power at a share that was seen "

@@ -61,7 +61,7 @@ std::string acrossConditions(const Findings& findings) {
            "<p class=\"aside\">These p are not corrected for the number of tests.</p>\n";
 }
 
-constexpr std::size_t conditionsAcross = 6; // of one table: more do not fit a printed page
+constexpr std::size_t conditionsAcross = 7; // of one table: more do not fit a printed page
 
 std::string statisticText(const CountStatistic& statistic, Votes votes) {
     const std::optional<double> value =
@@ -76,8 +76,10 @@ std::string statisticText(const CountStatistic& statistic, Votes votes) {
 std::string everyStatistic(const Findings& findings) {
     std::string html = "<h3 id=\"numbers-statistics\">Every statistic of each condition</h3>\n";
     const std::vector<Tally>& tallies = findings.tallies;
-    for (std::size_t first = 0; first < tallies.size(); first += conditionsAcross) {
-        const std::size_t end = std::min(first + conditionsAcross, tallies.size());
+    const std::size_t tables = (tallies.size() + conditionsAcross - 1) / conditionsAcross;
+    for (std::size_t t = 0; t < tables; ++t) {
+        const std::size_t first = t * tallies.size() / tables,
+                          end = (t + 1) * tallies.size() / tables;
         Table table{{{"Statistic"}, {"Meaning"}}, {}};
         for (std::size_t i = first; i < end; ++i)
             table.columns.push_back({tallies[i].condition, true});

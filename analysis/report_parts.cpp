@@ -1,6 +1,7 @@
 #include "analysis/report_parts.h"
 
 #include "report/html.h"
+#include "report/lettering.h"
 
 #include <fmt/format.h>
 
@@ -32,6 +33,8 @@ figcaption b { color: var(--ink); }
 .answer li { margin: .35rem 0; }
 .answer, .paste { font-size: 1.06rem; max-width: 48rem; }
 .paste { background: var(--panel); padding: .3rem 1rem; font-size: 1rem; }
+nav > ul { columns: 17rem 2; max-width: 48rem; }
+nav > ul > li { break-inside: avoid; }
 nav ul { margin: .3rem 0; padding-left: 1.2rem; }
 nav { font-size: .92rem; }
 .drawing { display: block; max-width: 760px; margin-bottom: .5rem; }
@@ -43,6 +46,9 @@ thead th { border-color: var(--rule); vertical-align: bottom; }
 tbody tr { border-color: var(--line); }
 tbody th { white-space: normal; }
 td, tbody th { min-width: 3.2rem; max-width: 26rem; }
+.text { min-width: 14rem; }
+.wide + .wide { margin-top: 1.2rem; }
+thead .number { white-space: normal; }
 .differs td { background: var(--shade); font-weight: 600; }
 .fact { overflow-wrap: anywhere; max-width: none; }
 .hash { font-family: monospace; }
@@ -55,16 +61,20 @@ td, tbody th { min-width: 3.2rem; max-width: 26rem; }
 @page { size: A4; margin: 15mm; }
 @media print {
   nav, .jump { display: none; }
-  .stamp, .differs td, .paste { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
+  .stamp, .differs td { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
   figure { break-inside: avoid; }
   h3 { break-after: avoid; }
   figcaption, .aside { font-size: 8pt; }
   .answer { font-size: 11pt; }
   td, tbody th { min-width: 0; }
+  .text { min-width: 9rem; }
+  .paste { background: none; border-left: 2pt solid var(--rule); font-size: 9pt; }
 }
 )";
 
 namespace {
+
+constexpr std::size_t shortText = 24; // letters: longer cells keep a width to be read in
 
 std::string headings(const Table& table) {
     std::string html;
@@ -78,7 +88,10 @@ std::string headings(const Table& table) {
 std::string cells(const Table& table, const std::vector<std::string>& row) {
     std::string html;
     for (std::size_t i = 1; i < row.size(); ++i)
-        html += fmt::format("<td{}>{}</td>", table.columns[i].number ? " class=\"number\"" : "",
+        html += fmt::format("<td{}>{}</td>",
+                            table.columns[i].number       ? " class=\"number\""
+                            : letters(row[i]) > shortText ? " class=\"text\""
+                                                          : "",
                             escaped(row[i]));
     return html;
 }
@@ -99,14 +112,22 @@ std::string group(const Table& table, std::size_t first, std::size_t end,
     return html + "</tbody>\n";
 }
 
-std::string drawn(const Figure& figure, double inches, const char* kind) {
-    const double width = 96 * inches;
-    // A figure that is only made smaller keeps some height for its type.
-    const double height = std::max(width * figure.height / figure.width, 0.75 * 340);
+std::string drawn(const Figure& figure, double width, double height, const char* kind) {
     return fmt::format("<div class=\"drawing {}\">{}</div>\n", kind,
-                       pageSvg(figure, static_cast<int>(std::lround(width)),
-                               static_cast<int>(std::lround(height)),
+                       pageSvg(figure, static_cast<int>(std::lround(96 * width)),
+                               static_cast<int>(std::lround(96 * height)),
                                fmt::format("{}-{}", figure.name, kind)));
+}
+
+std::string drawnTwice(const StudyFigure& figure) {
+    const auto heightAt = [](const Figure& drawing, double width) {
+        return width * drawing.height / drawing.width;
+    };
+    const Figure& narrow = figure.narrow ? *figure.narrow : figure.drawing;
+    // One that is only made smaller keeps some height for its type.
+    const double least = figure.narrow ? 0 : 0.75 * narrowFigure;
+    return drawn(figure.drawing, wideFigure, heightAt(figure.drawing, wideFigure), "broad") +
+           drawn(narrow, narrowFigure, std::max(heightAt(narrow, narrowFigure), least), "narrow");
 }
 
 } // namespace
@@ -129,13 +150,11 @@ std::string tableHtml(const Table& table, const std::string& label,
 
 std::string figureHtml(const StudyFigure& figure, int number) {
     const std::string& name = figure.drawing.name;
-    return fmt::format(
-        "<figure id=\"figure-{}\">\n{}{}<figcaption><b>Figure {}. {}.</b> {} "
-        "<a class=\"jump\" href=\"#numbers-{}\">Its numbers</a></figcaption>\n"
-        "</figure>\n",
-        name, drawn(figure.drawing, wideFigure, "broad"),
-        drawn(figure.narrow ? *figure.narrow : figure.drawing, narrowFigure, "narrow"), number,
-        escaped(figure.drawing.title), escaped(figure.caption), name);
+    return fmt::format("<figure id=\"figure-{}\">\n{}<figcaption><b>Figure {}. {}.</b> {} "
+                       "<a class=\"jump\" href=\"#numbers-{}\">Its numbers</a></figcaption>\n"
+                       "</figure>\n",
+                       name, drawnTwice(figure), number, escaped(figure.drawing.title),
+                       escaped(figure.caption), name);
 }
 
 } // namespace obscura

@@ -17,7 +17,7 @@ namespace {
 // test, the even split marked, and the counts beside it. Lengths are pixels of the page, in which
 // the type is 13 high.
 constexpr double glyphWidth = 7.3; // of the sans-serif faces browsers use, on average
-constexpr double lineHeight = 19, rowHeight = 29, countsWidth = 96, footHeight = 64, edge = 6;
+constexpr double lineHeight = 19, rowHeight = 29, countsWidth = 84, footHeight = 70, edge = 6;
 constexpr std::size_t mostConditions = 24; // of one picture: more do not fit a printed page
 
 // How a verdict looks: what colour says is also said by the mark.
@@ -31,6 +31,9 @@ constexpr std::array<Look, 2> looks = {{
     {"undecided", "undecided", "#555555", 6, true},
 }};
 std::size_t lookOf(const Verdict& verdict) { return verdict.differs ? 0 : 1; }
+
+constexpr const char *gridLine = "linewidth 0.5 linecolor rgb '#BBBBBB'",
+                     *evenSplit = "linewidth 1.5 dashtype 2 linecolor rgb '#333333'";
 
 double widthOf(const std::string& text) { return glyphWidth * static_cast<double>(letters(text)); }
 
@@ -73,21 +76,31 @@ void mark(Chart& chart, std::size_t i, double y) {
         100 * interval.low, 100 * interval.high, y);
 }
 
+// The scale behind an interval that has text above and below it.
+std::string scaleAt(double y) {
+    std::string script;
+    for (const int share : {0, 25, 50, 75, 100})
+        script += fmt::format("set arrow from {0}, {1} to {0}, {2} nohead back {3}\n", share,
+                              y - 10, y + 10, share == 50 ? evenSplit : gridLine);
+    return script;
+}
+
 // The condition's name above its interval, in two lines if it is long; returns the row's height.
 double stackedRow(Chart& chart, std::size_t i, double y) {
     const Tally& tally = chart.tallies[i];
-    const double room = chart.right - countsWidth + 20;
+    const double room = chart.width - countsWidth + 20 - chart.left;
     std::vector<std::string> lines = {labelOf(tally)};
     if (widthOf(lines[0]) > room && !tally.scene.empty())
         lines = {tally.scene + ":", pairOf(tally)};
     chart.labels += label(chart, gnuplotText(fmt::format("{} : {}", tally.votes.a, tally.votes.b)),
-                          chart.right, y + lineHeight / 2, "right");
+                          chart.width - edge, y + lineHeight / 2, "right");
     for (std::size_t line = 0; line < lines.size(); ++line)
         chart.labels += label(
             chart, gnuplotText(fitted(lines[line], line == 0 ? room : chart.right - chart.left)),
             chart.left, y + lineHeight * (0.5 + static_cast<double>(line)), "left");
     const double below = lineHeight * static_cast<double>(lines.size());
-    mark(chart, i, y + below + 9);
+    mark(chart, i, y + below + 10);
+    chart.labels += scaleAt(y + below + 10);
     return below + rowHeight;
 }
 
@@ -96,7 +109,7 @@ double row(Chart& chart, std::size_t i, double y) {
     const double middle = y + rowHeight / 2;
     chart.labels += label(chart, gnuplotText(labelOf(tally)), 20, middle, "left") +
                     label(chart, gnuplotText(fmt::format("{} : {}", tally.votes.a, tally.votes.b)),
-                          chart.width - countsWidth / 2, middle, "center");
+                          chart.width - edge, middle, "right");
     mark(chart, i, middle);
     return rowHeight;
 }
@@ -130,7 +143,7 @@ std::string headScript(const Chart& chart, const std::vector<Entry>& key) {
         (chart.width - edge) / chart.width, 1 - (chart.head - lineHeight / 2) / chart.height);
     for (const auto& [look, x, y] : key)
         script +=
-            fmt::format("set label '{}' at screen {:.5f}, screen {:.5f} offset char 1, 0 "
+            fmt::format("set label '{}' at screen {:.5f}, screen {:.5f} offset char 0.8, -0.2 "
                         "point pointtype {} pointsize 1 linewidth 2 linecolor rgb '{}'\n",
                         look->key, x / chart.width, 1 - y / chart.height, look->mark, look->colour);
     return script;
@@ -141,15 +154,21 @@ set border 1 linecolor rgb '#555555'
 set xrange [0:100]
 set xtics 0, 25, 100 nomirror out format '%.0f %%'
 set mxtics 5
-set grid xtics linetype 1 linewidth 0.5 linecolor rgb '#DDDDDD'
 unset ytics
 unset key
-set xlabel 'share of votes for b, 95 % exact interval' offset 0, -0.9
-set label '← more for a' at graph 0, graph 0 left offset 0, -2.2
-set label 'more for b →' at graph 1, graph 0 right offset 0, -2.2
-set arrow from first 50, graph 0 to first 50, graph 1 nohead linewidth 1.5 dashtype 2 linecolor rgb '#333333'
 set bars small
 )";
+
+// Below the plot; lengths from its lower edge.
+std::string footScript(const Chart& chart, double bottom) {
+    const auto text = [&](const char* what, double x, double y, const char* side) {
+        return label(chart, gnuplotText(what), x, bottom + y, side);
+    };
+    return text("← more for a", chart.left, 37, "left") +
+           text("more for b →", chart.right, 37, "right") +
+           text("share of votes for b, 95 % exact interval", (chart.left + chart.right) / 2, 57,
+                "center");
+}
 
 std::string plots(const Chart& chart) {
     std::string data;
@@ -185,7 +204,7 @@ Figure draw(const Findings& findings, std::span<const Tally> tallies,
     const bool stacked = chart.left > 0.45 * chart.width;
     if (stacked)
         chart.left = 14;
-    chart.right = stacked ? chart.width - 18 : chart.width - countsWidth - edge;
+    chart.right = stacked ? chart.width - 22 : chart.width - countsWidth - edge;
     double y = 0;
     for (std::size_t i = 0; i < tallies.size(); ++i) {
         if (i == 0 || tallies[i].level != tallies[i - 1].level) {
@@ -206,13 +225,19 @@ Figure draw(const Findings& findings, std::span<const Tally> tallies,
                     "set yrange [{}:0]\n",
                     chart.left / chart.width, chart.right / chart.width,
                     1 - chart.head / chart.height, footHeight / chart.height, y) +
-        stampScript(findings, inches) + chart.labels + plots(chart);
+        stampScript(findings, inches, chart.height / 96) + footScript(chart, y) +
+        (stacked ? std::string()
+                 : fmt::format(
+                       "set grid xtics back {}\nset arrow from 50, 0 to 50, {} nohead back {}\n",
+                       gridLine, y, evenSplit)) +
+        chart.labels + plots(chart);
     return {name, "Share of votes for b, by condition and level", script, inches,
             chart.height / 96};
 }
 
 Table numbersOf(std::span<const Tally> tallies, std::span<const std::optional<Verdict>> verdicts) {
     Table table{{{"Level"},
+                 {"Condition"},
                  {"Scene"},
                  {"a"},
                  {"b"},
@@ -227,7 +252,7 @@ Table numbersOf(std::span<const Tally> tallies, std::span<const std::optional<Ve
     for (std::size_t i = 0; i < tallies.size(); ++i) {
         const Tally& tally = tallies[i];
         auto& cells = table.rows.emplace_back(std::vector<std::string>{
-            tally.level, tally.scene, tally.techniqueA, tally.techniqueB,
+            tally.level, tally.condition, tally.scene, tally.techniqueA, tally.techniqueB,
             fmt::format("{}", tally.votes.a), fmt::format("{}", tally.votes.b)});
         if (!verdicts[i]) {
             cells.insert(cells.end(), {"–", "–", "–", "–", "no votes"});

@@ -11,6 +11,7 @@ namespace obscura {
 namespace {
 
 constexpr int mostBars = 40;
+constexpr double inchesHigh = 3;
 
 struct Bar {
     double from = 0, to = 0;
@@ -33,11 +34,14 @@ std::vector<Bar> barsOf(const std::map<int, int>& times) {
 
 constexpr const char* boxes = R"(set style fill solid 0.85 border linecolor rgb '#0072B2'
 set yrange [0:*]
-set ytics nomirror out
+set ytics nomirror out format '%.0f'
 set xtics nomirror out
 set ylabel 'trials'
 unset key
 )";
+
+// No tick between whole trials.
+std::string wholeTicks(int most) { return most < 6 ? "set ytics 1\n" : ""; }
 
 Figure drawing(const Findings& findings, const std::string& name, const std::string& title,
                const std::string& script, double width) {
@@ -54,9 +58,11 @@ StudyFigure figure(const Findings& findings, const std::string& name, const std:
 StudyFigure mask(const Findings& findings) {
     const Conduct& conduct = *findings.conduct;
     std::string data;
+    int most = 0;
     Table numbers{{{"Mask, ms"}, {"Trials", true}}, {}};
     const std::vector<Bar> bars = barsOf(conduct.maskTimes);
     for (const Bar& bar : bars) {
+        most = std::max(most, bar.trials);
         data += fmt::format("{} {} {}\n", (bar.from + bar.to) / 2, bar.trials, bar.to - bar.from);
         numbers.rows.push_back({bar.to - bar.from == 1
                                     ? fmt::format("{:.0f}", bar.from + 0.5)
@@ -66,7 +72,7 @@ StudyFigure mask(const Findings& findings) {
     const double low = bars.front().from, high = bars.back().to;
     const double room = std::max(5.0, 0.05 * (high - low));
     return figure(findings, "mask", "Duration of the grey mask",
-                  plot::block("mask", data) +
+                  plot::block("mask", data) + wholeTicks(most) +
                       fmt::format("set xlabel 'mask, ms'\nset xrange [{}:{}]\n"
                                   "plot $mask using 1:2:3 with boxes linecolor rgb '#0072B2'\n",
                                   std::floor(low - room), std::ceil(high + room)),
@@ -77,22 +83,23 @@ StudyFigure mask(const Findings& findings) {
                   std::move(numbers));
 }
 
-// Bars of counts from `from` on; what is beyond the last is counted there.
 StudyFigure counts(const Findings& findings, const std::string& name, const std::string& title,
                    const std::map<int, int>& trials, const std::string& axis,
                    const std::string& caption) {
     std::string data;
+    int most = 0;
     Table numbers{{{axis}, {"Trials", true}}, {}};
     for (const auto& [count, of] : trials) {
+        most = std::max(most, of);
         data += fmt::format("{} {}\n", count, of);
         numbers.rows.push_back({fmt::format("{}", count), fmt::format("{}", of)});
     }
     return figure(findings, name, title,
-                  plot::block("counts", data) +
+                  plot::block("counts", data) + wholeTicks(most) +
                       fmt::format("set xlabel '{}'\nset xrange [{}:{}]\nset xtics {}\n"
                                   "plot $counts using 1:2:(0.8) with boxes linecolor rgb "
                                   "'#0072B2'\n",
-                                  axis, trials.begin()->first - 1, trials.rbegin()->first + 1,
+                                  axis, trials.begin()->first - 0.6, trials.rbegin()->first + 0.6,
                                   1 + (trials.rbegin()->first - trials.begin()->first) / 8),
                   caption, std::move(numbers));
 }
