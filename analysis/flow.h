@@ -15,10 +15,10 @@ struct Flow {
         std::string reason;
         int count = 0;
     };
-    std::optional<int> begun;                       // sessions, by the ledger; absent without one
-    std::vector<Loss> notFinished;                  // of those
-    std::vector<Loss> excluded;                     // whole sessions and people, by reason
-    std::vector<Loss> leftOut;                      // single trials, by reason
+    std::optional<int> begun;     // sessions, by the ledger; absent without one
+    std::vector<Loss> unanswered; // of those, sessions without any answer
+    std::vector<Loss> excluded;   // whole sessions, by reason; numbers in it are left out
+    std::vector<Loss> leftOut;    // single trials, by reason
     int participants = 0, sessions = 0, trials = 0; // whose answers count
 
     static int sum(const std::vector<Loss>& losses);

@@ -39,7 +39,7 @@ std::vector<Box> boxesOf(const Flow& flow) {
         boxes.push_back({false,
                          {fmt::format("Begun: {}", counted(*flow.begun, "session", "sessions")),
                           "places of the ledger that were taken"}});
-    addLosses(boxes, flow.notFinished, "Not finished");
+    addLosses(boxes, flow.unanswered, "Without answers");
     addLosses(boxes, flow.excluded, "Excluded");
     addLosses(boxes, flow.leftOut, "Single trials left out");
     boxes.push_back(
@@ -148,8 +148,8 @@ Table numbersOf(const Flow& flow) {
     table.rows.push_back({"Invited", "people (not recorded by the program)", "–"});
     if (flow.begun)
         add("Begun", "sessions", *flow.begun);
-    for (const Flow::Loss& loss : flow.notFinished)
-        add("Not finished", loss.reason, loss.count);
+    for (const Flow::Loss& loss : flow.unanswered)
+        add("Without answers", loss.reason, loss.count);
     for (const Flow::Loss& loss : flow.excluded)
         add("Excluded", loss.reason, loss.count);
     for (const Flow::Loss& loss : flow.leftOut)

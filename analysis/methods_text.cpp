@@ -67,7 +67,7 @@ std::string people(const Conduct& c) {
                     first == last ? "on " + first : fmt::format("between {} and {}", first, last),
                     counted(static_cast<std::size_t>(c.trials), "answer"));
     std::vector<std::string> losses;
-    for (const auto* some : {&c.flow.notFinished, &c.flow.excluded})
+    for (const auto* some : {&c.flow.unanswered, &c.flow.excluded})
         for (const Flow::Loss& loss : *some)
             losses.push_back(fmt::format("{} {}", loss.count, loss.reason));
     if (!losses.empty())
@@ -107,15 +107,28 @@ std::string apparatus(const Conduct& c) {
         fmt::join(sources, ", "), c.missedFrames, c.trials, c.wrongMasks);
 }
 
+std::string claimsOf(const Findings& findings) {
+    if (findings.claims.empty())
+        return "No claim was declared before the data; all results are exploratory.";
+    std::vector<std::string> texts;
+    for (const ClaimResult& result : findings.claims)
+        texts.push_back(fmt::format("“{}” ({})", result.claim.name,
+                                    result.method.empty() ? "not tested" : result.method));
+    return fmt::format("Declared before the data, each tested among people of whom each counts "
+                       "once, and corrected by Holm (1979) within its family: {}.",
+                       fmt::join(texts, "; "));
+}
+
 std::string analysis(const Findings& findings) {
     std::vector<std::string> sources;
     for (const Tested& tested : findings.tests)
         if (std::find(sources.begin(), sources.end(), tested.kind->source) == sources.end())
             sources.emplace_back(tested.kind->source);
-    std::string text =
-        "Of each condition, the votes for a and b were compared with an even split by the exact "
-        "two-sided binomial test at .05, with p corrected by Holm (1979) within each hypothesis "
-        "and intervals of 95 % by Clopper and Pearson (1934).";
+    std::string text = claimsOf(findings);
+    text += fmt::format(" Of each condition, the votes for a and b were compared with an even "
+                        "split by the exact two-sided binomial test at .05, with p corrected by "
+                        "Holm within each {} and intervals of 95 % by Clopper and Pearson (1934).",
+                        findings.claims.empty() ? "hypothesis" : "claim");
     if (!sources.empty())
         text += fmt::format(" Beyond single conditions, without correction: {}.",
                             fmt::join(sources, "; "));

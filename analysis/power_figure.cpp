@@ -39,10 +39,10 @@ std::optional<double> detectable(std::int64_t votes, double level) {
 std::vector<int> familySizes(const std::vector<Tally>& tallies) {
     std::map<std::string, int> sizes;
     for (const Tally& tally : tallies)
-        sizes[tally.hypothesis] += tally.votes.total() > 0;
+        sizes[tally.family] += tally.votes.total() > 0;
     std::vector<int> result;
     for (const Tally& tally : tallies)
-        result.push_back(sizes[tally.hypothesis]);
+        result.push_back(sizes[tally.family]);
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include "analysis/figures.h"
 #include "analysis/methods_text.h"
 #include "analysis/report_parts.h"
+#include "analysis/results.h"
 #include "analysis/starters.h"
 #include "analysis/statistics.h"
 #include "analysis/table.h"
@@ -21,11 +22,20 @@ namespace obscura {
 
 namespace {
 
-std::string answer(const Findings& findings) {
-    std::string html = "<h2 id=\"answer\">The answer</h2>\n<ul class=\"answer\">\n";
-    for (const std::string& sentence : summaryOf(findings))
+std::string listOf(const std::vector<std::string>& sentences, const char* kind) {
+    std::string html;
+    for (const std::string& sentence : sentences)
         html += element("li", sentence);
-    return html + "</ul>\n";
+    return html.empty() ? html : fmt::format("<ul class=\"{}\">\n{}</ul>\n", kind, html);
+}
+
+// First what was claimed, then what else is to know.
+std::string answer(const Findings& findings) {
+    const std::vector<std::string> sentences = summaryOf(findings);
+    const auto others = sentences.begin() + static_cast<std::ptrdiff_t>(findings.claims.size());
+    return "<h2 id=\"answer\">The answer</h2>\n" +
+           listOf({sentences.begin(), others}, "answer claims") +
+           listOf({others, sentences.end()}, "answer");
 }
 
 std::string figureSection(const std::vector<StudyFigure>& figures) {
@@ -44,21 +54,48 @@ Cohen's, share − ½. JOD: how far b lies above a in just-objectionable differe
 prefer b.</p>
 )";
 
-std::string conditions(const Findings& findings) {
+// A table under a heading of its own: its entry in the contents.
+struct Part {
+    std::string anchor, heading, html;
+};
+
+std::string resultsHtml(const std::vector<Tally>& tallies, const std::string& label) {
     std::vector<bool> differs;
-    for (const auto& verdict : verdictsOf(findings.tallies))
-        differs.push_back(verdict && verdict->differs);
-    return "<h3 id=\"numbers-conditions\">Each condition</h3>\n" +
-           tableHtml(resultTable(findings.tallies), "Each condition", differs) +
-           std::string(tableNote);
+    for (const auto& verdict : verdictsOf(tallies))
+        differs.push_back(verdict && verdict->differs());
+    return tableHtml(resultTable(tallies), label, differs);
 }
 
-std::string acrossConditions(const Findings& findings) {
+Part claims(const Findings& findings) {
+    return {"numbers-claims", "Each claim",
+            findings.claims.empty() ? "" : tableHtml(claimTable(findings.claims), "Each claim")};
+}
+
+Part conditions(const Findings& findings) {
+    return {"numbers-conditions", "Each condition",
+            resultsHtml(findings.tallies, "Each condition") + std::string(tableNote)};
+}
+
+Part excluded(const Findings& findings) {
+    Part part{"numbers-excluded", "What is excluded, and the results with it", ""};
+    if (!findings.exclusions.empty())
+        part.html = tableHtml(exclusionTable(findings.exclusions), "What is excluded");
+    if (findings.whole && !findings.whole->claims.empty())
+        part.html += element("p", "Each claim, if all of this counted:") +
+                     tableHtml(claimTable(findings.whole->claims), "Each claim, with all answers");
+    if (findings.whole)
+        part.html += element("p", "Each condition, if all of this counted:") +
+                     resultsHtml(findings.whole->tallies, "Each condition, with all answers");
+    return part;
+}
+
+Part acrossConditions(const Findings& findings) {
+    const std::string heading = "Across conditions and people";
     if (findings.tests.empty())
-        return {};
-    return "<h3 id=\"numbers-tests\">Across conditions and people</h3>\n" +
-           tableHtml(testTable(findings), "Across conditions and people") +
-           "<p class=\"aside\">These p are not corrected for the number of tests.</p>\n";
+        return {"numbers-tests", heading, ""};
+    return {"numbers-tests", heading,
+            tableHtml(testTable(findings), heading) +
+                "<p class=\"aside\">These p are not corrected for the number of tests.</p>\n"};
 }
 
 constexpr std::size_t conditionsAcross = 7; // of one table: more do not fit a printed page
@@ -73,8 +110,8 @@ std::string statisticText(const CountStatistic& statistic, Votes votes) {
                                                      : fmt::format("{:.3g}", *value);
 }
 
-std::string everyStatistic(const Findings& findings) {
-    std::string html = "<h3 id=\"numbers-statistics\">Every statistic of each condition</h3>\n";
+Part everyStatistic(const Findings& findings) {
+    std::string html;
     const std::vector<Tally>& tallies = findings.tallies;
     const std::size_t tables = (tallies.size() + conditionsAcross - 1) / conditionsAcross;
     for (std::size_t t = 0; t < tables; ++t) {
@@ -92,24 +129,38 @@ std::string everyStatistic(const Findings& findings) {
         html += tableHtml(table, fmt::format("Every statistic of conditions {} to {}",
                                              tallies[first].condition, tallies[end - 1].condition));
     }
-    return html;
+    return {"numbers-statistics", "Every statistic of each condition", html};
 }
 
-std::string numbersOf(const StudyFigure& figure, std::size_t number) {
+Part numbersOf(const StudyFigure& figure, std::size_t number) {
     const std::string name = fmt::format("Numbers of figure {}", number);
-    return fmt::format("<h3 id=\"numbers-{}\">{}: {}</h3>\n", figure.drawing.name, name,
-                       escaped(figure.drawing.title)) +
-           tableHtml(figure.numbers, name);
+    return {"numbers-" + figure.drawing.name, fmt::format("{}: {}", name, figure.drawing.title),
+            tableHtml(figure.numbers, name)};
 }
 
-std::string everyNumber(const Findings& findings, const std::vector<StudyFigure>& figures) {
+// Those of `parts` that have something to show.
+std::vector<Part> present(std::vector<Part> parts) {
+    std::erase_if(parts, [](const Part& part) { return part.html.empty(); });
+    return parts;
+}
+
+std::vector<Part> tablesOf(const Findings& findings) {
+    return present({claims(findings), conditions(findings), excluded(findings),
+                    acrossConditions(findings), everyStatistic(findings)});
+}
+
+std::string everyNumber(const std::vector<Part>& parts, const std::vector<StudyFigure>& figures) {
+    std::vector<Part> all = parts;
+    for (std::size_t i = 0; i < figures.size(); ++i)
+        all.push_back(numbersOf(figures[i], i + 1));
     std::string html =
         "<h2 id=\"numbers\">Every number</h2>\n<p class=\"aside\">With all digits, and for "
-        "programs: votes.csv and tests.csv beside this page, which start.R and start.py load. The "
-        "folder figures has each figure as SVG, PDF and gnuplot script.</p>\n" +
-        conditions(findings) + acrossConditions(findings) + everyStatistic(findings);
-    for (std::size_t i = 0; i < figures.size(); ++i)
-        html += numbersOf(figures[i], i + 1);
+        "programs: votes.csv, tests.csv and results.csv beside this page, which start.R and "
+        "start.py load, and results.json. The folder figures has each figure as SVG, PDF and "
+        "gnuplot script.</p>\n";
+    for (const Part& part : all)
+        html +=
+            fmt::format("<h3 id=\"{}\">{}</h3>\n{}", part.anchor, escaped(part.heading), part.html);
     return html;
 }
 
@@ -133,15 +184,15 @@ std::string listOf(const std::vector<Entry>& entries) {
     return html + "</ul>\n";
 }
 
-std::string contents(const Findings& findings, const std::vector<StudyFigure>& figures) {
+std::string contents(const Findings& findings, const std::vector<Part>& tables,
+                     const std::vector<StudyFigure>& figures) {
     Entry drawn{"figures", "Figures"};
     for (std::size_t i = 0; i < figures.size(); ++i)
         drawn.below.push_back({"figure-" + figures[i].drawing.name,
                                fmt::format("{}. {}", i + 1, figures[i].drawing.title)});
-    Entry numbers{"numbers", "Every number", {{"numbers-conditions", "Each condition"}}};
-    if (!findings.tests.empty())
-        numbers.below.push_back({"numbers-tests", "Across conditions and people"});
-    numbers.below.push_back({"numbers-statistics", "Every statistic of each condition"});
+    Entry numbers{"numbers", "Every number"};
+    for (const Part& table : tables)
+        numbers.below.push_back({table.anchor, table.heading});
     std::vector<Entry> entries = {
         {"answer", "The answer"}, drawn, numbers, {"methods", "Methods, ready to paste"}};
     if (findings.stimuli)
@@ -228,8 +279,9 @@ std::string reportHtml(const Findings& findings) {
         loud.insert(loud.begin(), stamp);
     for (const std::string& line : loud)
         html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(line));
-    html += answer(findings) + contents(findings, figures) + figureSection(figures) +
-            everyNumber(findings, figures) + methods(findings);
+    const std::vector<Part> tables = tablesOf(findings);
+    html += answer(findings) + contents(findings, tables, figures) + figureSection(figures) +
+            everyNumber(tables, figures) + methods(findings);
     if (findings.stimuli)
         html += stimuliSection(*findings.stimuli);
     return html + howItWasRun(findings) + "</main>\n</body>\n</html>\n";

@@ -26,11 +26,14 @@ struct Look {
     int mark;
     bool open = false; // a mark with a white inside, through which the interval does not run
 };
-constexpr std::array<Look, 2> looks = {{
+constexpr std::array<Look, 4> looks = {{
+    // in the order of Verdict::Outcome
     {"differs", "differs: exact p < .05 after Holm", "#0072B2", 7},
+    {"equivalent", "as good as even: equivalence p < .05", "#00805B", 5},
     {"undecided", "undecided", "#555555", 6, true},
+    {"unusable", "not to be used", "#B33A00", 2},
 }};
-std::size_t lookOf(const Verdict& verdict) { return verdict.differs ? 0 : 1; }
+std::size_t lookOf(const Verdict& verdict) { return static_cast<std::size_t>(verdict.outcome); }
 
 constexpr const char *gridLine = "linewidth 0.5 linecolor rgb '#BBBBBB'",
                      *evenSplit = "linewidth 1.5 dashtype 2 linecolor rgb '#333333'";
@@ -285,7 +288,9 @@ std::vector<StudyFigure> sharesFigures(const Findings& findings) {
              "Each mark is the share of votes for b of one condition (a / b), its line the 95 % "
              "interval of Clopper and Pearson, which belongs to the exact test. Filled: the share "
              "differs from an even split after Holm's correction. Open: the data do not decide, "
-             "which is not to say that both look equally real. The dashed line is the even split "
+             "which is not to say that both look equally real. Square: within the margin of an "
+             "even split. Cross: the votes cannot be believed, or are too few. The dashed line is "
+             "the even split "
              "of guessing.",
              numbersOf(some, theirs), draw(findings, some, theirs, name, narrowFigure)});
     }

@@ -45,8 +45,9 @@ std::string wholeTicks(int most) { return most < 6 ? "set ytics 1\n" : ""; }
 
 Figure drawing(const Findings& findings, const std::string& name, const std::string& title,
                const std::string& script, double width) {
-    return {name, title, plot::style + std::string(boxes) + stampScript(findings, width) + script,
-            width, 3};
+    return {name, title,
+            plot::style + std::string(boxes) + stampScript(findings, width, inchesHigh) + script,
+            width, inchesHigh};
 }
 
 StudyFigure figure(const Findings& findings, const std::string& name, const std::string& title,
