@@ -46,12 +46,12 @@ std::string figureSection(const std::vector<StudyFigure>& figures) {
 }
 
 constexpr std::string_view tableNote = R"(<p class="aside">Votes for the more realistic of two
-images; shaded where p (Holm) is below .05. b share: with the 95 % interval of Clopper
-and Pearson, which excludes 50 % exactly where p (exact) is below .05. χ²: against an even split, one degree of freedom.
-p (exact): two-sided binomial, and the one to trust. p (Holm): the same, corrected for the number of
-tests of its hypothesis, so that among them any false difference has a chance of at most 5 %. g:
-Cohen's, share − ½. JOD: how far b lies above a in just-objectionable differences; 1 means that 75 %
-prefer b.</p>
+images; shaded where they differ from an even split. b share: with the 95 % interval of Clopper and
+Pearson, which excludes 50 % exactly where p (exact) is below .05. χ²: against an even split, one
+degree of freedom. p (exact): two-sided binomial, and the one to trust. p (Holm): the same, corrected
+for the number of tests of its claim or, without claims, its hypothesis, so that among them any false
+difference has a chance of at most 5 %. g: Cohen's, share − ½. JOD: how far b lies above a in
+just-objectionable differences; 1 means that 75 % prefer b.</p>
 )";
 
 // A table under a heading of its own: its entry in the contents.

@@ -47,7 +47,7 @@ thead th { border-color: var(--rule); vertical-align: bottom; }
 tbody tr { border-color: var(--line); }
 tbody th { white-space: normal; }
 td, tbody th { min-width: 3.2rem; max-width: 26rem; }
-.text { min-width: 14rem; }
+.text { min-width: 11rem; }
 .wide + .wide { margin-top: 1.2rem; }
 thead .number { white-space: normal; }
 .differs td { background: var(--shade); font-weight: 600; }
@@ -85,15 +85,16 @@ std::string headings(const Table& table) {
     return html;
 }
 
+std::string classOf(bool number, const std::string& cell) {
+    return number ? " class=\"number\"" : letters(cell) > shortText ? " class=\"text\"" : "";
+}
+
 // All but the first.
 std::string cells(const Table& table, const std::vector<std::string>& row) {
     std::string html;
     for (std::size_t i = 1; i < row.size(); ++i)
-        html += fmt::format("<td{}>{}</td>",
-                            table.columns[i].number       ? " class=\"number\""
-                            : letters(row[i]) > shortText ? " class=\"text\""
-                                                          : "",
-                            escaped(row[i]));
+        html +=
+            fmt::format("<td{}>{}</td>", classOf(table.columns[i].number, row[i]), escaped(row[i]));
     return html;
 }
 
@@ -105,7 +106,8 @@ std::string group(const Table& table, std::size_t first, std::size_t end,
         html += i < marked.size() && marked[i] ? "<tr class=\"differs\">" : "<tr>";
         if (i == first)
             html += end - first == 1
-                        ? fmt::format("<th scope=\"row\">{}</th>", escaped(table.rows[i][0]))
+                        ? fmt::format("<th scope=\"row\"{}>{}</th>",
+                                      classOf(false, table.rows[i][0]), escaped(table.rows[i][0]))
                         : fmt::format("<th scope=\"rowgroup\" rowspan=\"{}\">{}</th>", end - first,
                                       escaped(table.rows[i][0]));
         html += cells(table, table.rows[i]) + "</tr>\n";
