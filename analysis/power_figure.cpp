@@ -140,12 +140,18 @@ std::vector<StudyFigure> powerFigures(const Findings& findings) {
         return Figure{"power", "What this study could have found",
                       stampScript(findings, width, height) + script(findings), width, height};
     };
+    const std::string repeated =
+        findings.conduct && findings.conduct->mostVotes > 1
+            ? " Some people voted several times; the curves take every vote for another person's, "
+              "so they promise too much."
+            : "";
     return {{draw(wideFigure, 4),
              "How often the exact test of one condition, with the N votes that it has, "
              "finds a difference when one exists, against how large it truly is; the dotted line "
              "is 80 %. Broken lines: as the first of Holm's tests that are corrected together. "
              "Triangles: the shares that were seen, for scale. The power at a share that was seen "
-             "says no more than its p (Hoenig and Heisey 2001).",
+             "says no more than its p (Hoenig and Heisey 2001)." +
+                 repeated,
              numbersOf(findings.tallies), draw(narrowFigure, 4)}};
 }
 

@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-// For each condition, grouped by complexity level, the share of b with the interval of the exact
+// For each condition, grouped by complexity level, the share of b with the interval of its
 // test, the even split marked, and the counts beside it. Lengths are pixels of the page, in which
 // the type is 13 high.
 constexpr double glyphWidth = 7.3; // of the sans-serif faces browsers use, on average
@@ -28,7 +28,7 @@ struct Look {
 };
 constexpr std::array<Look, 4> looks = {{
     // in the order of Verdict::Outcome
-    {"differs", "differs: exact p < .05 after Holm", "#0072B2", 7},
+    {"differs", "differs: p < .05 after Holm", "#0072B2", 7},
     {"equivalent", "as good as even: equivalence p < .05", "#00805B", 5},
     {"undecided", "undecided", "#555555", 6, true},
     {"unusable", "not to be used", "#B33A00", 2},
@@ -73,7 +73,7 @@ void mark(Chart& chart, std::size_t i, double y) {
     if (!chart.verdicts[i])
         return;
     const Votes votes = chart.tallies[i].votes;
-    const Interval interval = clopperPearson(votes.b, votes.total());
+    const Interval interval = intervalOf(chart.tallies[i]);
     chart.marks[lookOf(*chart.verdicts[i])] += fmt::format(
         "{} {} {} {}\n", 100.0 * static_cast<double>(votes.b) / static_cast<double>(votes.total()),
         100 * interval.low, 100 * interval.high, y);
@@ -169,7 +169,7 @@ std::string footScript(const Chart& chart, double bottom) {
     };
     return text("← more for a", chart.left, 37, "left") +
            text("more for b →", chart.right, 37, "right") +
-           text("share of votes for b, 95 % exact interval", (chart.left + chart.right) / 2, 57,
+           text("share of votes for b, 95 % interval", (chart.left + chart.right) / 2, 57,
                 "center");
 }
 
@@ -261,7 +261,7 @@ Table numbersOf(std::span<const Tally> tallies, std::span<const std::optional<Ve
             cells.insert(cells.end(), {"–", "–", "–", "–", "no votes"});
             continue;
         }
-        const Interval interval = clopperPearson(tally.votes.b, tally.votes.total());
+        const Interval interval = intervalOf(tally);
         for (const double share :
              {static_cast<double>(tally.votes.b) / static_cast<double>(tally.votes.total()),
               interval.low, interval.high})
@@ -286,12 +286,12 @@ std::vector<StudyFigure> sharesFigures(const Findings& findings) {
         figures.push_back(
             {draw(findings, some, theirs, name, wideFigure),
              "Each mark is the share of votes for b of one condition (a / b), its line the 95 % "
-             "interval of Clopper and Pearson, which belongs to the exact test. Filled: the share "
-             "differs from an even split after Holm's correction. Open: the data do not decide, "
-             "which is not to say that both look equally real. Square: within the margin of an "
-             "even split. Cross: the votes cannot be believed, or are too few. The dashed line is "
-             "the even split "
-             "of guessing.",
+             "interval that belongs to the test: of Clopper and Pearson or, where people voted "
+             "several times, of the mean of their shares. Filled: the share differs from an even "
+             "split after Holm's correction. Open: the data do not decide, which is not to say "
+             "that both look equally real. Square: within the margin of an even split. Cross: the "
+             "votes cannot be believed, or are too few. The dashed line is the even split of "
+             "guessing.",
              numbersOf(some, theirs), draw(findings, some, theirs, name, narrowFigure)});
     }
     return figures;
