@@ -91,6 +91,9 @@ void countTrial(const Vote& row, ShownByCondition& shownBy,
     conduct.wrongMasks += row.maskFramesShown != row.maskFramesPlanned;
     conduct.missedFrames += row.missedFrames > 0;
     conduct.earlyPresses += row.earlyPressesInMask > 0;
+    ++conduct.maskTimes[static_cast<int>(std::lround(row.maskMs))];
+    ++conduct.maskFrames[row.maskFramesShown - row.maskFramesPlanned];
+    ++conduct.missed[row.missedFrames];
 }
 
 void countTrials(const std::vector<Answer>& answers, Conduct& conduct) {
@@ -154,11 +157,6 @@ Conduct conductOf(const Answers& answers) {
     conduct.flow = flowOf(answers, conduct.participants, conduct.sessions);
     countTrials(counted, conduct);
     noteProvenance(counted, conduct);
-    conduct.maskTimes = countBy<int>(
-        counted, [](const Vote& row) { return static_cast<int>(std::lround(row.maskMs)); });
-    conduct.maskFrames = countBy<int>(
-        counted, [](const Vote& row) { return row.maskFramesShown - row.maskFramesPlanned; });
-    conduct.missed = countBy<int>(counted, [](const Vote& row) { return row.missedFrames; });
     conduct.maskMs = spreadOf<&Vote::maskMs>(counted);
     conduct.view1Ms = spreadOf<&Vote::view1Ms>(counted);
     conduct.view2Ms = spreadOf<&Vote::view2Ms>(counted);

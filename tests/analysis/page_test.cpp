@@ -203,7 +203,7 @@ TEST(PageColours, OfFiguresHaveItTooTurnedOverOrNot) {
 class Starters : public testing::TestWithParam<std::pair<const char*, const char*>> {};
 
 TEST_P(Starters, LoadTheTablesAndDisagreeWithAWrongOne) {
-    const auto& [program, script] = GetParam();
+    const char *program = GetParam().first, *script = GetParam().second;
     if (std::system(fmt::format("command -v {} >/dev/null", program).c_str()) != 0)
         GTEST_SKIP() << program << " is not installed: " << script << " WAS NOT RUN";
     const test::Folder folder;
