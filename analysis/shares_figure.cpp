@@ -182,8 +182,8 @@ std::string plots(const Chart& chart) {
             continue;
         data += plot::block(look.name, chart.marks[i]);
         elements.push_back(fmt::format("${} using 1:4:2:3 with xerrorbars linewidth 2 pointtype 7 "
-                                       "pointsize {} linecolor rgb '{}' title '{}'",
-                                       look.name, look.open ? 0.1 : 1.0, look.colour, look.key));
+                                       "pointsize 0.1 linecolor rgb '{}' title '{}'",
+                                       look.name, look.colour, look.key));
         if (look.open)
             elements.push_back(fmt::format("${} using 1:4 with points pointtype 7 pointsize 1 "
                                            "linecolor rgb 'white' title ''",

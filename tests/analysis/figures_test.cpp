@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+
 namespace obscura {
 namespace {
 
@@ -72,6 +74,19 @@ TEST(SharesFigure, MarksWhatTheVerdictSays) {
                 ElementsAre("differs", "equivalent", "undecided", "unusable"));
     for (const char* key : {"differs:", "as good as even", "undecided", "not to be used"})
         EXPECT_THAT(figure.drawing.script, HasSubstr(key));
+}
+
+// Shapes tell the verdicts apart: nothing lies over a cross.
+TEST(SharesFigure, DrawsACrossAsACross) {
+    Findings findings = thesis();
+    findings.tallies.resize(1);
+    findings.tallies[0].votes = {0, 3};
+    const std::string svg = svgOf(sharesFigures(findings)[0].drawing);
+    EXPECT_THAT(svg, HasSubstr("<use xlink:href='#test-gpPt1' ")); // in the key and in the chart
+    const std::regex circle(
+        R"re(<use xlink:href='#test-gpPt6' transform='[^']*scale\(([\d.]+)\)')re");
+    for (std::sregex_iterator it(svg.begin(), svg.end(), circle), end; it != end; ++it)
+        EXPECT_LT(std::stod((*it)[1]), 1) << "a circle that can be seen";
 }
 
 TEST(SharesFigure, IsSplitBeforeItOutgrowsAPage) {
