@@ -1,5 +1,6 @@
 #include "analysis/figures.h"
 
+#include "analysis/people_figures.h"
 #include "report/gnuplot.h"
 
 #include <fmt/format.h>
@@ -12,7 +13,8 @@ namespace obscura {
 namespace {
 
 using FiguresOf = std::vector<StudyFigure> (*)(const Findings&);
-constexpr FiguresOf kinds[] = {sharesFigures, powerFigures, flowFigures, timingFigures};
+constexpr FiguresOf kinds[] = {sharesFigures, positionFigures, powerFigures,
+                               flowFigures,   timesFigures,    timingFigures};
 
 } // namespace
 

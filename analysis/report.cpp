@@ -51,7 +51,8 @@ Pearson, which excludes 50 % exactly where p (exact) is below .05. χ²: against
 degree of freedom. p (exact): two-sided binomial, and the one to trust. p (Holm): the same, corrected
 for the number of tests of its claim or, without claims, its hypothesis, so that among them any false
 difference has a chance of at most 5 %. g: Cohen's, share − ½. JOD: how far b lies above a in
-just-objectionable differences; 1 means that 75 % prefer b.</p>
+just-objectionable differences; 1 means that 75 % prefer b. Same, orders balanced: the share as it
+would be were b shown first and second equally often, with Newcombe's interval.</p>
 )";
 
 // A table under a heading of its own: its entry in the contents.
@@ -93,9 +94,11 @@ Part acrossConditions(const Findings& findings) {
     const std::string heading = "Across conditions and people";
     if (findings.tests.empty())
         return {"numbers-tests", heading, ""};
-    return {"numbers-tests", heading,
-            tableHtml(testTable(findings), heading) +
-                "<p class=\"aside\">These p are not corrected for the number of tests.</p>\n"};
+    return {
+        "numbers-tests", heading,
+        tableHtml(testTable(findings), heading) +
+            "<p class=\"aside\">p (Holm): corrected for the groups of conditions of which the same "
+            "is asked; other p are not corrected.</p>\n"};
 }
 
 constexpr std::size_t conditionsAcross = 7; // of one table: more do not fit a printed page

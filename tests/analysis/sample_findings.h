@@ -15,12 +15,7 @@ inline Findings thesis() {
 inline Findings studied(const Folder& folder, bool simulated) {
     const auto data = writeStudy(folder / "study", 28, simulated);
     const Answers answers = collectAnswers(std::vector{data}, {});
-    Findings findings;
-    findings.stimuli = readManifest(writeStimuli(folder / "stimuli") / "manifest.json");
-    findings.title = findings.stimuli->title;
-    findings.tallies = tallyVotes(answers.counted, &*findings.stimuli);
-    findings.conduct = conductOf(answers);
-    return findings;
+    return findingsOf(answers, readManifest(writeStimuli(folder / "stimuli") / "manifest.json"));
 }
 
 } // namespace obscura::test
