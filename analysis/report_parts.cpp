@@ -46,7 +46,7 @@ img { display: block; width: 100%; height: auto; }
 thead th { border-color: var(--rule); vertical-align: bottom; }
 tbody tr { border-color: var(--line); }
 tbody th { white-space: normal; }
-td, tbody th { min-width: 3.2rem; max-width: 26rem; }
+td, tbody th { min-width: 2.4rem; max-width: 26rem; }
 .text { min-width: 11rem; }
 .wide + .wide { margin-top: 1.2rem; }
 thead .number { white-space: normal; }
