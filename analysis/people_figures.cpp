@@ -120,7 +120,7 @@ std::string timesScript(const Findings& findings, const ResponseTimes& times, do
         plot::ticks("x", logarithmicAxis(all)) +
         fmt::format("set yrange [0.4:{}]\nset ytics scale 0 ({})\nset grid noytics\n",
                     static_cast<double>(times.measures.size()) + 0.6, labels) +
-        "set xlabel 'seconds'\nset lmargin 13\nset rmargin 3\n" + keyOf(width) +
+        "set xlabel 'seconds'\nset lmargin 17\nset rmargin 3\n" + keyOf(width) +
         plot::block("boxes", boxes) + plot::block("medians", medians);
     if (!flagged.empty())
         script += plot::block("flagged", flagged);

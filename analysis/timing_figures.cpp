@@ -36,7 +36,9 @@ constexpr const char* boxes = R"(set style fill solid 0.85 border linecolor rgb 
 set yrange [0:*]
 set ytics nomirror out format '%.0f'
 set xtics nomirror out
-set ylabel 'trials'
+set ylabel 'trials' offset -1, 0
+set lmargin 11
+set rmargin 3
 unset key
 )";
 
