@@ -4,7 +4,6 @@
 #include "analysis/table.h"
 #include "report/paper_figure.h"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,15 +24,11 @@ struct StudyFigure {
 // Inches: across a page, and one column of it.
 constexpr double wideFigure = 760 / 96.0, narrowFigure = 340 / 96.0;
 
-// Those that the findings give reason for, in the order of the page. Simulated data are marked
-// within each picture, which may travel without its page.
-std::vector<StudyFigure> figuresOf(const Findings& findings);
-
 // As part of a figure's script: that its data are simulated, large and pale behind everything, in a
 // picture of so many inches; "" for data of people.
 std::string stampScript(const Findings& findings, double width, double height);
 
-// The members of figuresOf().
+// Members of figuresOf(), analysis/figure_list.h.
 std::vector<StudyFigure> sharesFigures(const Findings& findings);
 std::vector<StudyFigure> powerFigures(const Findings& findings);
 std::vector<StudyFigure> flowFigures(const Findings& findings);

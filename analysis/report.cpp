@@ -1,6 +1,6 @@
 #include "analysis/report.h"
 
-#include "analysis/figures.h"
+#include "analysis/figure_list.h"
 #include "analysis/methods_text.h"
 #include "analysis/report_parts.h"
 #include "analysis/results.h"

@@ -1,4 +1,4 @@
-#include "analysis/figures.h"
+#include "analysis/figure_list.h"
 #include "analysis/methods_text.h"
 #include "report/paper_figure.h"
 #include "tests/analysis/sample_findings.h"

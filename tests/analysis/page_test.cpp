@@ -1,6 +1,7 @@
 // The report's page as its readers meet it: wide and narrow, light and dark, by eye, by keyboard
 // and by ear.
 
+#include "analysis/figure_list.h"
 #include "analysis/report.h"
 #include "analysis/report_parts.h"
 #include "analysis/table.h"
