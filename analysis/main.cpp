@@ -148,6 +148,7 @@ int analyse(int argc, char** argv) {
     if (!findings.exclusions.empty())
         writeFile(options.out / "exclusions.csv", exclusionsCsv(findings));
     writeFile(report, page);
+    writeBesideReport(options.out, csv, findings);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());
     return 0;
