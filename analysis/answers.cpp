@@ -38,12 +38,7 @@ std::vector<fs::path> filesOf(const fs::path& given) {
         if (isDataFile(entry))
             files.push_back(entry.path());
     if (files.empty())
-        throw Error({folder.string(), 0, 0, {}},
-                    fs::exists(given / "sessions" / "design.json")
-                        ? "expected rows of pairs, found none: the trials of this study are no "
-                          "pairs, and this program reads only those so far. Its answers are in "
-                          "sessions/*_answers.csv"
-                        : "expected CSV files of responses, found none");
+        throw Error({folder.string(), 0, 0, {}}, "expected CSV files of responses, found none");
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -145,7 +140,7 @@ int columnNumber(std::string_view name) {
 
 // `S01` and `s01` are one person, written twice.
 template <auto field>
-void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column) {
+void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column, int number) {
     std::map<std::pair<std::uint32_t, std::string>, const Answer*> seen;
     std::set<std::pair<std::uint32_t, std::uint32_t>> known; // study and name
     for (const Answer& answer : answers) {
@@ -155,18 +150,18 @@ void requireOneSpelling(const std::vector<Answer>& answers, std::string_view col
         const auto [first, isNew] = seen.try_emplace({study.number(), folded(name)}, &answer);
         if (const Answer& other = *first->second; other.row.*field != name)
             throw Error(
-                {answer.file, answer.line, columnNumber(column), std::string(column)},
+                {answer.file, answer.line, number, std::string(column)},
                 fmt::format("expected \"{}\" as in {}, found \"{}\"; write it one way in all "
                             "rows, or with more than a letter's case between them",
                             other.row.*field, at(other), name));
     }
 }
 
-void requireOneSpelling(const std::vector<Answer>& answers) {
-    requireOneSpelling<&Vote::participantId>(answers, "participant_id");
-    requireOneSpelling<&Vote::conditionId>(answers, "condition_id");
-    requireOneSpelling<&Vote::level>(answers, "level");
-    requireOneSpelling<&Vote::scene>(answers, "scene");
+void requireOneSpelling(const std::vector<Answer>& answers, ColumnNumber number) {
+    requireOneSpelling<&Vote::participantId>(answers, "participant_id", number("participant_id"));
+    requireOneSpelling<&Vote::conditionId>(answers, "condition_id", number("condition_id"));
+    requireOneSpelling<&Vote::level>(answers, "level", number("level"));
+    requireOneSpelling<&Vote::scene>(answers, "scene", number("scene"));
 }
 
 // What two rows must not share.
@@ -354,6 +349,11 @@ Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules)
     Answers answers = readAll(filesOf(data), rules.lenient);
     for (const fs::path& given : data)
         readOrder(given, answers.order);
+    applyRules(answers, rules, columnNumber);
+    return answers;
+}
+
+void applyRules(Answers& answers, const AnswerRules& rules, ColumnNumber columnNumberOf) {
     std::vector<Answer>& rows = answers.counted;
     removeRehearsals(answers);
     removeSimulated(rows, rules.simulated, answers.leftOut);
@@ -361,7 +361,7 @@ Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules)
         requireOneStudy(rows);
     if (!rules.mixedProtocols)
         requireOneDesign(rows);
-    requireOneSpelling(rows);
+    requireOneSpelling(rows, columnNumberOf);
     answers.leftOut.duplicates = removeDuplicates(rows, rules.duplicates);
     answers.leftOut.practice = removeKind(rows, "practice");
     answers.leftOut.catches = removeKind(rows, "catch");
@@ -371,7 +371,6 @@ Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules)
     if (rows.empty())
         throw Error(fmt::format("expected answers to main trials, found none in {} file(s)",
                                 answers.files));
-    return answers;
 }
 
 } // namespace obscura

@@ -79,4 +79,9 @@ struct Answers {
 // must be left to count.
 Answers collectAnswers(std::span<const std::filesystem::path> data, const AnswerRules& rules);
 
+// The rules alone, for trials that stand in another table than that of pairs: those of
+// `answers.counted` that count stay. `number` is that of a column in that table, for errors.
+using ColumnNumber = int (*)(std::string_view column);
+void applyRules(Answers& answers, const AnswerRules& rules, ColumnNumber number);
+
 } // namespace obscura

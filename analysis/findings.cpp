@@ -1,5 +1,6 @@
 #include "analysis/findings.h"
 
+#include "analysis/scales/scale_table.h"
 #include "analysis/verdict.h"
 
 #include "inference/tails.h"
@@ -75,6 +76,12 @@ std::string preference(const Tally& tally) {
 std::string extent(const Findings& findings) {
     const std::int64_t votes = totalVotes(findings);
     const std::size_t conditions = findings.tallies.size();
+    if (findings.tallies.empty() && findings.conduct)
+        return fmt::format("{} {} answered {} trials.", findings.conduct->participants,
+                           findings.conduct->simulated == findings.conduct->trials
+                               ? "simulated participants"
+                               : "participants",
+                           findings.conduct->trials);
     if (!findings.conduct)
         return fmt::format("The published counts hold {} votes on {} conditions.", votes,
                            conditions);
@@ -189,6 +196,8 @@ std::string unbalancedOrder(const Conduct& conduct) {
 }
 
 std::string positionExplains(const Conduct& conduct) {
+    if (conduct.shown.empty())
+        return {}; // trials that are no pairs
     const Votes positions{conduct.trials - conduct.secondChosen, conduct.secondChosen};
     if (splitsEvenly(positions))
         return {};
@@ -249,12 +258,19 @@ std::vector<std::string> cautionsOf(const Findings& findings) {
 
 std::vector<std::string> summaryOf(const Findings& findings) {
     std::vector<std::string> sentences;
+    if (findings.tallies.empty()) {
+        sentences = scaleSentences(findings.scales);
+        sentences.insert(sentences.begin(), extent(findings));
+        return sentences;
+    }
     for (const std::string& sentence :
          {extent(findings), differences(findings), uncorrected(findings), disagreement(findings),
           evenSplits(findings), notEquivalence(findings), repeatedVotes(findings),
           missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
+    for (const std::string& sentence : scaleSentences(findings.scales))
+        sentences.push_back(sentence);
     return sentences;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/conduct.h"
+#include "analysis/scales/scale_kinds.h"
 #include "analysis/study_tests.h"
 #include "analysis/votes.h"
 
@@ -20,10 +21,11 @@ std::vector<Tested> testsOf(const StudyData& data);
 
 struct Findings {
     std::string title;
-    std::vector<Tally> tallies;
+    std::vector<Tally> tallies;     // none where trials are no pairs
     std::optional<Conduct> conduct; // absent for published counts
     std::optional<Manifest> stimuli;
     std::vector<Tested> tests = {}; // beyond single conditions
+    ScaleFindings scales = {};
 };
 
 // What the votes are: "participants", "SIMULATED", "partly SIMULATED" or "published counts". A

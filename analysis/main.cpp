@@ -5,6 +5,8 @@
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
 #include "analysis/report.h"
+#include "analysis/scales/scale_table.h"
+#include "analysis/scales/trial_findings.h"
 #include "analysis/table.h"
 #include "base/files.h"
 #include "base/version.h"
@@ -47,7 +49,8 @@ void declare(CLI::App& app, Options& options) {
                                    "checks that these images were shown")
                         ->option_text("DIR");
     counts->excludes(data)->excludes(stimuli);
-    app.add_option("--out", options.out, "Folder for report.html, votes.csv and tests.csv")
+    app.add_option("--out", options.out,
+                   "Folder for report.html, votes.csv, tests.csv and scales.csv")
         ->option_text("DIR=report");
     app.add_option("--csv", options.csv, "Where the CSV goes instead of votes.csv in that folder")
         ->option_text("FILE");
@@ -76,23 +79,27 @@ Findings published(const fs::path& counts) {
     Findings findings{fmt::format("Published counts: {}", counts.filename().string()),
                       readCounts(counts), std::nullopt, std::nullopt};
     findings.tests = testsOf(studyData(findings.tallies, nullptr));
+    const ScaleData scales = scaleData(findings.tallies, nullptr, nullptr);
+    findings.scales = {scalesOf(scales), scales.notes};
     return findings;
 }
 
 Findings findingsOf(const Options& options) {
     if (!options.counts.empty())
         return published(options.counts);
-    const Answers answers = collectAnswers(options.data, options.rules);
-    for (const BadRow& bad : answers.bad)
-        fmt::print(stderr, "skipped: {}{}\n", bad.place.prefix(), bad.message);
     Findings findings;
     if (!options.stimuli.empty())
         findings.stimuli = readManifest(options.stimuli / "manifest.json");
+    if (isTrialData(options.data))
+        return trialFindings(options.data, options.rules, findings.stimuli);
+    const Answers answers = collectAnswers(options.data, options.rules);
     const Manifest* stimuli = findings.stimuli ? &*findings.stimuli : nullptr;
     findings.title = stimuli ? stimuli->title : answers.counted.front().row.studyId;
     findings.tallies = tallyVotes(answers.counted, stimuli, answers.order);
     findings.conduct = conductOf(answers);
     findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
+    const ScaleData scales = scaleData(findings.tallies, &answers.counted, stimuli);
+    findings.scales = {scalesOf(scales), scales.notes};
     return findings;
 }
 
@@ -101,11 +108,15 @@ void printFindings(const Findings& findings) {
         fmt::print("*** {} ***\n\n", stamp);
     for (const std::string& caution : cautionsOf(findings))
         fmt::print("*** {} ***\n\n", caution);
-    fmt::print("{}\n\n{}\n", findings.title, alignedText(resultTable(findings.tallies)));
+    fmt::print("{}\n\n", findings.title);
+    if (!findings.tallies.empty())
+        fmt::print("{}\n", alignedText(resultTable(findings.tallies)));
     for (const std::string& sentence : summaryOf(findings))
         fmt::print("{}\n", sentence);
     if (const std::string tests = testsText(findings); !tests.empty())
         fmt::print("\n{}", tests);
+    if (!findings.scales.all.empty())
+        fmt::print("\n{}", scalesText(findings.scales.all));
 }
 
 int analyse(int argc, char** argv) {
@@ -132,11 +143,21 @@ int analyse(int argc, char** argv) {
         throw Error("expected a study's folder, CSV files, or --counts FILE; see --help");
 
     const Findings findings = findingsOf(options);
-    const fs::path csv = options.csv.empty() ? options.out / "votes.csv" : options.csv;
+    if (findings.conduct)
+        for (const BadRow& bad : findings.conduct->bad)
+            fmt::print(stderr, "skipped: {}{}\n", bad.place.prefix(), bad.message);
+    const bool isPairs = !findings.tallies.empty();
+    const fs::path csv =
+        !options.csv.empty() ? options.csv : options.out / (isPairs ? "votes.csv" : "scales.csv");
     const fs::path report = options.out / "report.html";
     const std::string page = reportHtml(findings);
-    writeFile(csv, resultCsv(findings));
-    writeFile(options.out / "tests.csv", testsCsv(findings));
+    if (isPairs) {
+        writeFile(csv, resultCsv(findings));
+        writeFile(options.out / "tests.csv", testsCsv(findings));
+    }
+    if (!isPairs || !findings.scales.all.empty())
+        writeFile(isPairs ? options.out / "scales.csv" : csv,
+                  scalesCsv(findings.scales.all, sourceOf(findings)));
     writeFile(report, page);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());

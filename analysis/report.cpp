@@ -1,6 +1,7 @@
 #include "analysis/report.h"
 
 #include "analysis/chart.h"
+#include "analysis/scales/scale_page.h"
 #include "analysis/table.h"
 #include "analysis/verdict.h"
 #include "base/files.h"
@@ -181,7 +182,10 @@ std::string reportHtml(const Findings& findings) {
         loud.insert(loud.begin(), stamp);
     for (const std::string& line : loud)
         html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(line));
-    html += paragraphs(findings) + results(findings) + acrossConditions(findings);
+    html += paragraphs(findings);
+    if (!findings.tallies.empty())
+        html += results(findings);
+    html += acrossConditions(findings) + scalesSection(findings.scales.all);
     if (findings.stimuli)
         html += stimuliSection(*findings.stimuli);
     return html + howItWasRun(findings) + "</body>\n</html>\n";
