@@ -3,7 +3,7 @@
 #include "base/csv.h"
 #include "base/files.h"
 #include "base/parallel.h"
-#include "protocols/reader/design.h"
+#include "protocols/reader/claims.h"
 
 #include <fmt/format.h>
 
@@ -228,7 +228,7 @@ int removeKind(std::vector<Answer>& answers, std::string_view kind) {
 void readOrder(const fs::path& folder, std::vector<std::string>& order) {
     const fs::path path = folder / "sessions" / "design.json";
     if (fs::exists(path))
-        for (const std::string& condition : conditionOrder(readFile(path), path.string()))
+        for (const std::string& condition : declaredIn(readFile(path), path.string()).order)
             order.push_back(condition);
 }
 

@@ -1,126 +1,16 @@
 #include "experiment/ledger.h"
 
 #include "base/error.h"
-#include "base/files.h"
 #include "experiment/append_file.h"
 #include "experiment/machine.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <array>
-#include <map>
-#include <sstream>
 
 namespace obscura {
 
 namespace {
-
-using nlohmann::json;
-
-constexpr std::array<std::string_view, 3> stateNames = {"reserved", "completed", "void"};
-constexpr int formatVersion = 2; // 1 had no owner, no design and no version
-
-std::string line(const SlotRecord& record) {
-    nlohmann::ordered_json entry = {
-        {"format_version", formatVersion},
-        {"slot", record.slot},
-        {"state", nameOf(record.state)},
-        {"participant", record.session.participant},
-        {"session", record.session.number},
-        {"simulated", record.session.simulated},
-        {"machine", record.machine},
-        {"process", record.process},
-        {"time", record.time},
-    };
-    if (record.owner)
-        entry["owner"] = record.owner->text();
-    if (!record.design.empty())
-        entry["design_sha256"] = record.design;
-    return entry.dump() + "\n";
-}
-
-int wholeNumber(const json& object, const char* key, int low, int high) {
-    const json& value = object.at(key);
-    if (!value.is_number_integer() || value < low || value > high)
-        throw Error(fmt::format("\"{}\": expected a whole number from {} to {}, found {}", key, low,
-                                high, value.dump()));
-    return value;
-}
-
-SlotState stateOf(const std::string& name) {
-    const auto found = std::find(stateNames.begin(), stateNames.end(), name);
-    if (found == stateNames.end())
-        throw Error(fmt::format("\"state\": expected one of {}, found \"{}\"",
-                                fmt::join(stateNames, ", "), name));
-    return static_cast<SlotState>(found - stateNames.begin());
-}
-
-SlotRecord parse(const std::string& text) {
-    constexpr int large = 2147483647;
-    const json object = json::parse(text);
-    if (object.contains("format_version"))
-        wholeNumber(object, "format_version", 1, formatVersion);
-    SlotRecord record;
-    record.slot = wholeNumber(object, "slot", 1, highestSlot);
-    record.state = stateOf(object.at("state"));
-    record.session = {object.at("participant"), wholeNumber(object, "session", 1, large),
-                      object.at("simulated")};
-    record.machine = object.at("machine");
-    record.process = wholeNumber(object, "process", 0, large);
-    record.time = object.at("time");
-    if (object.contains("owner"))
-        record.owner = ProcessId::parse(object["owner"].get<std::string>());
-    record.design = object.value("design_sha256", "");
-    return record;
-}
-
-// Whether a last line without line feed is complete. The beginning of a line is never JSON by
-// itself; so where such a line is JSON, it was written whole, and an editor removed its line feed.
-bool isWhole(std::string_view text) { return json::accept(text); }
-
-// Slots are given out one after the other, so each is first mentioned after all lower ones.
-void checkSequence(int slot, int highest, const Place& place) {
-    if (slot > highest + 1)
-        throw Error(place,
-                    fmt::format("expected slots up to {}, found {}: lines are missing before "
-                                "this one; restore them before running a participant",
-                                highest + 1, slot));
-}
-
-std::vector<SlotRecord> read(const std::filesystem::path& file) {
-    std::vector<SlotRecord> records;
-    std::istringstream lines(std::filesystem::exists(file) ? readFile(file) : "");
-    int number = 0, highest = 0;
-    for (std::string text; std::getline(lines, text);) {
-        ++number;
-        if (lines.eof() && !isWhole(text))
-            break; // a line being written, or torn
-        try {
-            records.push_back(parse(text));
-        } catch (const std::exception& error) {
-            throw Error({file.string(), number, 0, {}},
-                        fmt::format("expected a slot's state as this program writes it ({}); "
-                                    "restore the line before running a participant",
-                                    error.what()));
-        }
-        checkSequence(records.back().slot, highest, {file.string(), number, 0, {}});
-        highest = std::max(highest, records.back().slot);
-    }
-    return records;
-}
-
-std::vector<SlotRecord> lastOfEach(const std::vector<SlotRecord>& history) {
-    std::map<int, SlotRecord> slots;
-    for (const SlotRecord& record : history)
-        slots[record.slot] = record;
-    std::vector<SlotRecord> records;
-    records.reserve(slots.size());
-    for (const auto& [slot, record] : slots)
-        records.push_back(record);
-    return records;
-}
 
 // The lowest that was given back, else the first never used.
 int freeSlot(const std::vector<SlotRecord>& records) {
@@ -219,26 +109,24 @@ void checkTakenBack(const SlotRecord& record, const SessionId& session) {
 
 } // namespace
 
-std::string_view nameOf(SlotState state) { return stateNames[static_cast<std::size_t>(state)]; }
-
-std::vector<SlotRecord> Ledger::history() const { return read(file_); }
+std::vector<SlotRecord> Ledger::history() const { return readSlots(file_); }
 
 std::vector<SlotRecord> Ledger::records() const { return lastOfEach(history()); }
 
 int Ledger::claim(const SessionId& session, const std::string& design, int planned) {
-    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    AppendFile file = AppendFile::openLocked(file_, isWholeSlotLine);
     const std::vector<SlotRecord> lines = history();
     checkFits(lines, session, design, {file_.string(), 0, 0, {}});
     const std::vector<SlotRecord> slots = lastOfEach(lines);
     checkPlan(slots, planned, {file_.string(), 0, 0, {}});
     const int slot = freeSlot(slots);
-    file.append(line({slot, SlotState::reserved, session, machineName(), utcNow(), processId(),
-                      ProcessId::current(), design}));
+    file.append(slotLine({slot, SlotState::reserved, session, machineName(), utcNow(), processId(),
+                          ProcessId::current(), design}));
     return slot;
 }
 
 void Ledger::takeBack(int slot, const SessionId& session, const std::string& design) {
-    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    AppendFile file = AppendFile::openLocked(file_, isWholeSlotLine);
     const std::vector<SlotRecord> lines = history();
     const Place place{file_.string(), 0, 0, {}};
     checkFits(lines, session, design, place);
@@ -252,8 +140,8 @@ void Ledger::takeBack(int slot, const SessionId& session, const std::string& des
     } catch (const Error& error) {
         throw Error(place, error.what());
     }
-    file.append(line({slot, SlotState::reserved, session, machineName(), utcNow(), processId(),
-                      ProcessId::current(), design}));
+    file.append(slotLine({slot, SlotState::reserved, session, machineName(), utcNow(), processId(),
+                          ProcessId::current(), design}));
 }
 
 void Ledger::complete(int slot) { change(slot, SlotState::completed, checkCompletes); }
@@ -261,10 +149,10 @@ void Ledger::complete(int slot) { change(slot, SlotState::completed, checkComple
 void Ledger::giveBack(int slot) { change(slot, SlotState::returned, checkGivenBack); }
 
 void Ledger::restore(const std::vector<SlotRecord>& lost) {
-    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    AppendFile file = AppendFile::openLocked(file_, isWholeSlotLine);
     std::string lines;
     for (const SlotRecord& record : lost)
-        lines += line(record);
+        lines += slotLine(record);
     if (!lines.empty())
         file.append(lines);
 }
@@ -273,7 +161,7 @@ void Ledger::change(int slot, SlotState state, void (*check)(const SlotRecord&))
     const Place place{file_.string(), 0, 0, {}};
     if (!std::filesystem::exists(file_))
         throw Error(place, fmt::format("slot {} was never claimed: there is no ledger", slot));
-    AppendFile file = AppendFile::openLocked(file_, isWhole);
+    AppendFile file = AppendFile::openLocked(file_, isWholeSlotLine);
     const std::vector<SlotRecord> slots = records();
     const auto found = std::find_if(slots.begin(), slots.end(),
                                     [&](const SlotRecord& record) { return record.slot == slot; });
@@ -290,7 +178,7 @@ void Ledger::change(int slot, SlotState state, void (*check)(const SlotRecord&))
     }
     record.state = state;
     record.time = utcNow();
-    file.append(line(record));
+    file.append(slotLine(record));
 }
 
 bool isOrphan(const SlotRecord& record) { return holderOf(record) == Holder::gone; }

@@ -1,38 +1,13 @@
 #pragma once
 
-#include "base/process.h"
+#include "protocols/reader/slots.h"
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace obscura {
-
-// One person's one session: what a slot is claimed for, and what names its files.
-struct SessionId {
-    std::string participant; // letters and digits
-    int number = 1;
-    bool simulated = false;
-    bool rehearsal = false; // claims no slot
-};
-
-enum class SlotState { reserved, completed, returned };
-std::string_view nameOf(SlotState state); // "void" for returned: what experimenters call it
-
-constexpr int highestSlot = 1000000;
-
-// What became of a slot.
-struct SlotRecord {
-    int slot = 0; // from 1
-    SlotState state = SlotState::reserved;
-    SessionId session;
-    std::string machine, time;
-    int process = 0;
-    std::optional<ProcessId> owner; // nothing in lines of version 1
-    std::string design;             // SHA-256 of Study::design(); "" in lines of version 1
-};
 
 // Hands out the slots of the ordering scheme, so that the design stays balanced whatever happens.
 // The ledger is a file of lines, one per change; it is locked while one is made, so any number of
@@ -77,7 +52,7 @@ std::string doubtOf(const SlotRecord& record);
 class SlotClaim {
   public:
     SlotClaim(Ledger& ledger, const SessionId& session, const std::string& design = {},
-          int planned = highestSlot)
+              int planned = highestSlot)
         : ledger_(ledger), slot_(ledger.claim(session, design, planned)) {}
     // Takes it back.
     SlotClaim(Ledger& ledger, int slot, const SessionId& session, const std::string& design = {})

@@ -1,5 +1,6 @@
 #include "protocols/reader/claims.h"
 
+#include "base/files.h"
 #include "protocols/reader/study_parts.h"
 
 #include <fmt/format.h>
@@ -147,6 +148,7 @@ ExclusionRules parseExclusions(TomlTable table) {
     rules.incomplete = table.flag("incomplete", rules.incomplete);
     rules.interrupted = table.flag("interrupted", rules.interrupted);
     rules.wrongMasks = table.flag("wrongMasks", rules.wrongMasks);
+    rules.voided = table.flag("voided", rules.voided);
     table.finish();
     return rules;
 }
@@ -174,6 +176,8 @@ Claim claimOf(const json& one) {
 
 Declared declaredOf(const json& design) {
     Declared declared;
+    declared.sha256 = sha256(design.dump());
+    declared.order = design.value("order of conditions", std::vector<std::string>());
     for (const json& one : design.value("claims", json::array()))
         declared.claims.push_back(claimOf(one));
     declared.correct = design.value("correct answers", std::map<std::string, std::string>());
@@ -185,17 +189,19 @@ Declared declaredOf(const json& design) {
         found->at("incomplete").get_to(rules.incomplete);
         found->at("interrupted").get_to(rules.interrupted);
         found->at("wrongMasks").get_to(rules.wrongMasks);
+        found->at("voided").get_to(rules.voided);
     }
     return declared;
 }
 
 } // namespace
 
-Declared declaredIn(std::string_view design, const std::string& file) {
-    std::string why = "it is no JSON object";
+Declared declaredIn(std::string_view text, const std::string& file) {
+    std::string why = "it is no JSON object with a design";
     try {
-        if (const json parsed = json::parse(design, nullptr, false); parsed.is_object())
-            return declaredOf(parsed);
+        const json kept = json::parse(text, nullptr, false);
+        if (kept.is_object() && kept.contains("design") && kept["design"].is_object())
+            return declaredOf(kept["design"]);
     } catch (const std::exception& fault) {
         why = fault.what();
     }

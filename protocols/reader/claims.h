@@ -33,14 +33,16 @@ struct Claim {
 };
 const std::vector<std::string>& claimKindNames(); // in the order of the enumeration
 
-// [exclusions]: whose answers do not count, and which. The defaults leave out nothing.
+// [exclusions]: whose answers do not count, and which. The defaults leave out but
+// those whose place another takes.
 struct ExclusionRules {
     double catches = 0;       // sessions with a smaller share of right answers to catch trials
     double onePosition = 1;   // people with a larger share of choices of one position
     double fastest = 0;       // answers given within fewer seconds after the question
-    bool incomplete = false;  // sessions that were not completed
+    bool incomplete = false;  // sessions with fewer trials than the longest one
     bool interrupted = false; // trials during which the window lost the keyboard
     bool wrongMasks = false;  // trials whose mask had other than the planned refreshes
+    bool voided = true;       // sessions whose slot went back: another person sees the same order
 
     bool operator==(const ExclusionRules&) const = default;
 };
@@ -53,13 +55,17 @@ struct ClaimedCondition {
 std::vector<Claim> parseClaims(TomlTable& root, const std::vector<ClaimedCondition>& conditions);
 ExclusionRules parseExclusions(TomlTable table);
 
-// Both as a design has them (designOf of design.h); none where it has none. An Error names `file`
-// when the text is none of ours.
+// What the analysis asks of a study's design.
 struct Declared {
+    std::string sha256;             // as in the rows' design_sha256
+    std::vector<std::string> order; // ids of conditions, as in the protocol
     std::vector<Claim> claims;
     ExclusionRules exclusions;
     std::map<std::string, std::string> correct; // the right answer to a condition, where it has one
 };
-Declared declaredIn(std::string_view design, const std::string& file);
+
+// From design.json, which obscura-experiment keeps beside the answers. An Error names `file` when
+// the text is none of it.
+Declared declaredIn(std::string_view text, const std::string& file);
 
 } // namespace obscura

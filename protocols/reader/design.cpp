@@ -242,9 +242,11 @@ json toJson(const Claim& claim) {
 }
 
 json toJson(const ExclusionRules& rules) {
-    const auto& [catches, onePosition, fastest, incomplete, interrupted, wrongMasks] = rules;
+    const auto& [catches, onePosition, fastest, incomplete, interrupted, wrongMasks, voided] =
+        rules;
     return {{"catches", catches},       {"onePosition", onePosition}, {"fastest", fastest},
-            {"incomplete", incomplete}, {"interrupted", interrupted}, {"wrongMasks", wrongMasks}};
+            {"incomplete", incomplete}, {"interrupted", interrupted}, {"wrongMasks", wrongMasks},
+            {"voided", voided}};
 }
 
 std::vector<std::string> spelt(const std::vector<int>& keys) {
@@ -352,19 +354,6 @@ std::string designOf(const Protocol& protocol) {
     Parts parts = split(protocol);
     parts.stimuli.update(parts.procedure);
     return parts.stimuli.dump();
-}
-
-std::vector<std::string> conditionOrder(std::string_view design, const std::string& file) {
-    const json parsed = json::parse(design, nullptr, false);
-    if (!parsed.is_object())
-        throw Error({file, 0, 0, {}}, "expected a study's design in JSON, found another text; put "
-                                      "the original back, or remove the file");
-    std::vector<std::string> order;
-    if (const auto found = parsed.find("order of conditions"); found != parsed.end())
-        for (const json& condition : *found)
-            if (condition.is_string())
-                order.push_back(condition.get<std::string>());
-    return order;
 }
 
 std::vector<std::string> differences(std::string_view before, std::string_view now) {

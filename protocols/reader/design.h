@@ -25,10 +25,6 @@ ProtocolParts partsOf(const Protocol& protocol);
 // object.
 std::string designOf(const Protocol& protocol);
 
-// The conditions of such a text in the protocol's order; none where it does not say. An Error names
-// `file` when it is no JSON.
-std::vector<std::string> conditionOrder(std::string_view design, const std::string& file);
-
 // How one such text became another: "trial.mask was 2, is now 3", the same for each value.
 std::vector<std::string> differences(std::string_view before, std::string_view now);
 

@@ -1,6 +1,6 @@
 #include "protocols/reader/design_facts.h"
 
-#include "protocols/reader/design.h"
+#include "protocols/reader/claims.h"
 
 #include <nlohmann/json.hpp>
 
@@ -52,12 +52,13 @@ DesignFacts::Asked askedOf(const json& question, const json& phase) {
 
 DesignFacts designFacts(std::string_view design, const std::string& file) {
     DesignFacts facts;
-    facts.order = conditionOrder(design, file); // throws where it is no JSON
+    const Declared declared = declaredIn(design, file); // throws where it is no JSON
+    facts.order = declared.order;
     const json parsed = json::parse(design);
     for (const auto& [id, condition] : at(parsed, "conditions").items())
         facts.conditions[id] = shownOf(condition);
-    for (const auto& [id, correct] : at(parsed, "correct answers").items())
-        facts.conditions[id].correct = textOf(correct);
+    for (const auto& [id, correct] : declared.correct)
+        facts.conditions[id].correct = correct;
     const json& trial = at(parsed, "trial");
     facts.roles = textsOf(at(trial, "roles"));
     const json& phases = at(trial, "phases");

@@ -1,3 +1,4 @@
+#include "base/files.h"
 #include "protocols/reader/claims.h"
 #include "protocols/reader/design.h"
 #include "protocols/reader/protocol.h"
@@ -123,16 +124,20 @@ TEST(Claims, OfATrendCountLevelsInTheirOrderUnlessScored) {
 TEST(Claims, ArePartOfTheDesignAndReadBackFromIt) {
     const Protocol protocol = parsed(three), silent = parsed("");
     const std::string design = designOf(protocol);
-    const Declared declared = declaredIn(design, "design.json");
+    const auto kept = [](const std::string& text) { return "{\"design\": " + text + "}"; };
+    const Declared declared = declaredIn(kept(design), "design.json");
+    EXPECT_EQ(declared.sha256, sha256(design));
+    EXPECT_THAT(declared.order, ElementsAre("low", "low-again", "high", "watched"));
     EXPECT_EQ(declared.claims, protocol.claims);
     EXPECT_EQ(declared.exclusions, protocol.exclusions);
     EXPECT_EQ(declared.correct.at("watched"), "b");
-    EXPECT_TRUE(declaredIn(designOf(silent), "design.json").claims.empty());
+    EXPECT_TRUE(declaredIn(kept(designOf(silent)), "design.json").claims.empty());
     EXPECT_NE(design, designOf(silent));
     // Studies that claim nothing keep the design that they had.
     EXPECT_THAT(designOf(silent), AllOf(Not(HasSubstr("claims")), Not(HasSubstr("exclusions"))));
-    EXPECT_THAT([] { declaredIn("{\"claims\": 3}", "d.json"); }, fails("d.json: expected a study"));
-    EXPECT_THAT([] { declaredIn("{\"claims\": [{\"name\": \"x\"}]}", "d.json"); },
+    EXPECT_THAT([] { declaredIn("{\"design\": {\"claims\": 3}}", "d.json"); },
+                fails("d.json: expected a study"));
+    EXPECT_THAT([] { declaredIn("{\"design\": {\"claims\": [{\"name\": \"x\"}]}}", "d.json"); },
                 fails("expected a study's design"));
     EXPECT_THAT([] { declaredIn("nothing", "d.json"); }, fails("no JSON object"));
 }
