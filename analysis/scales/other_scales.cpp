@@ -71,7 +71,8 @@ ScaleResult differenceScaleOf(const Triads& group) {
                      differenceScaleOf(levels, repeated(group.triads, group.person, times));
                  return again ? std::optional(again->values) : std::nullopt;
              });
-    result.diagnostics.push_back({"noise, the last level being at 1", scale->sigma});
+    if (scale->sigma > 0)
+        result.diagnostics.push_back({"noise, the last level being at 1", scale->sigma});
     return result;
 }
 

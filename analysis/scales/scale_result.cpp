@@ -14,7 +14,7 @@ namespace obscura {
 
 namespace {
 
-constexpr int samples = 1000;
+constexpr int samples = 2000;
 
 // Rows: one for each item but the first, and one for each step; columns: the scale's values.
 Eigen::MatrixXd contrasts(const ScaleResult& result) {

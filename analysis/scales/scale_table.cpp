@@ -154,7 +154,7 @@ std::string placeOf(const ScaleGroup& group) {
 Table scaleTable(const std::vector<Scaled>& scales) {
     Table table{{{"Scale"},
                  {"Where"},
-                 {"Technique"},
+                 {"Of"},
                  {"Value", true},
                  {"95 %", true}, //
                  {"Unit"},

@@ -59,6 +59,23 @@ class Sorter {
                     signed_.insert(given.question);
         for (const AnsweredTrial& trial : study.trials)
             sort(trial);
+        const auto place = [&](const Group& group) { // of its first condition in the protocol
+            std::size_t first = conditions_.size();
+            for (const Observation& one : group.members)
+                first = std::min(first, static_cast<std::size_t>(
+                                            std::find(conditions_.begin(), conditions_.end(),
+                                                      one.trial->trial.row.conditionId.text()) -
+                                            conditions_.begin()));
+            return std::pair(group.group.isPooled(), first);
+        };
+        std::vector<std::pair<std::pair<bool, std::size_t>, Group>> placed;
+        for (Group& group : groups_)
+            placed.emplace_back(place(group), std::move(group));
+        std::stable_sort(placed.begin(), placed.end(),
+                         [](const auto& x, const auto& y) { return x.first < y.first; });
+        groups_.clear();
+        for (auto& [key, group] : placed)
+            groups_.push_back(std::move(group));
     }
 
     ScaleData data() {
@@ -345,7 +362,9 @@ class Sorter {
     Ladder ladder(const ScaleGroup& group, const std::vector<Observation>& members) {
         Ladder result{group};
         fill(result, members, false);
-        std::map<std::string, Step> steps; // by condition
+        std::map<std::string, Step> steps;        // by condition
+        std::map<std::string, std::string> right; // techniques
+        std::set<std::string> wrong;
         int unsure = 0;
         for (const auto& [trial, given, person] : members) {
             if (given->value == Symbol())
@@ -360,6 +379,8 @@ class Sorter {
             Step& step = steps[id];
             step.condition = id;
             step.label = trial->techniqueOf(other);
+            wrong.insert(step.label);
+            right[id] = trial->techniqueOf(correct);
             step.difference = stimulusDifference(stimuli_, id, other, correct);
             step.successes += given->role.text() == correct;
             ++step.trials;
@@ -372,8 +393,11 @@ class Sorter {
         result.success = "right answers";
         std::vector<Step> inOrder;
         for (const std::string& condition : conditions_)
-            if (const auto step = steps.find(condition); step != steps.end())
+            if (const auto step = steps.find(condition); step != steps.end()) {
                 inOrder.push_back(step->second);
+                if (wrong.size() == 1) // it is the right one that changes from step to step
+                    inOrder.back().label = right[condition];
+            }
         setLevels(result, inOrder, true);
         return result;
     }
@@ -402,9 +426,6 @@ void dropDoubles(std::vector<Kind>& groups) {
     for (const Kind& one : groups)
         own[key(one)] += !one.isPooled();
     std::erase_if(groups, [&](const Kind& one) { return one.isPooled() && own[key(one)] == 1; });
-    std::stable_sort(groups.begin(), groups.end(), [](const Kind& x, const Kind& y) {
-        return x.isPooled() < y.isPooled(); // those of scenes first
-    });
 }
 
 } // namespace

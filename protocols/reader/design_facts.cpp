@@ -54,7 +54,7 @@ DesignFacts designFacts(std::string_view design, const std::string& file) {
     DesignFacts facts;
     const Declared declared = declaredIn(design, file); // throws where it is no JSON
     facts.order = declared.order;
-    const json parsed = json::parse(design);
+    const json parsed = json::parse(design).at("design");
     for (const auto& [id, condition] : at(parsed, "conditions").items())
         facts.conditions[id] = shownOf(condition);
     for (const auto& [id, correct] : declared.correct)
