@@ -56,6 +56,7 @@ std::optional<DifferenceScale> differenceScaleOf(int levels, std::span<const Qua
 
 ScaleResult differenceScaleOf(const Triads& group) {
     ScaleResult result = resultOf(group, "sd of judgement");
+    result.isOrdered = true;
     std::string why =
         "the answers are as if without noise, or the last level equals the first: the "
         "likelihood has no finite maximum";

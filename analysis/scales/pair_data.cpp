@@ -37,13 +37,21 @@ std::vector<std::pair<ScaleGroup, Members>> groupsOf(const std::vector<Tally>& t
     }
     if (groups.size() > 1)
         groups.push_back({ScaleGroup{}, all});
-    for (auto& [group, members] : groups)
+    std::vector<std::string> techniques; // in the protocol's order
+    for (const Tally* tally : all)
+        for (const std::string& item : {tally->techniqueA, tally->techniqueB})
+            if (std::find(techniques.begin(), techniques.end(), item) == techniques.end())
+                techniques.push_back(item);
+    for (auto& [group, members] : groups) {
+        std::set<std::string> shown;
         for (const Tally* tally : members) {
-            for (const std::string& item : {tally->techniqueA, tally->techniqueB})
-                if (std::find(group.items.begin(), group.items.end(), item) == group.items.end())
-                    group.items.push_back(item);
+            shown.insert({tally->techniqueA, tally->techniqueB});
             group.answers += static_cast<int>(tally->votes.total());
         }
+        for (const std::string& technique : techniques)
+            if (shown.contains(technique))
+                group.items.push_back(technique);
+    }
     return groups;
 }
 

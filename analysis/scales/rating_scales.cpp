@@ -85,7 +85,7 @@ void addCounts(ScaleResult& result, const Ratings& group) {
 
 // Neighbours on the scale, on those people who rated both.
 void addPairedSteps(ScaleResult& result, const Eigen::MatrixXd& means) {
-    const std::vector<std::size_t> order = risingOrder(result.items);
+    const std::vector<std::size_t> order = orderOf(result);
     for (std::size_t i = 0; i + 1 < order.size(); ++i) {
         const Eigen::VectorXd differences = means.col(static_cast<Eigen::Index>(order[i + 1])) -
                                             means.col(static_cast<Eigen::Index>(order[i]));

@@ -105,9 +105,12 @@ ScaleResult resultOf(const ScaleGroup& group, std::string unit) {
     return result;
 }
 
-std::vector<std::size_t> risingOrder(const std::vector<ScaleItem>& items) {
+std::vector<std::size_t> orderOf(const ScaleResult& result) {
+    const std::vector<ScaleItem>& items = result.items;
     std::vector<std::size_t> order(items.size());
     std::iota(order.begin(), order.end(), 0);
+    if (result.isOrdered)
+        return order;
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t x, std::size_t y) { return items[x].value < items[y].value; });
     return order;
@@ -130,7 +133,7 @@ void addScale(ScaleResult& result, const Eigen::VectorXd& values, const Eigen::M
     for (std::size_t i = 0; i < result.group.items.size(); ++i)
         result.items.push_back(
             {result.group.items[i], values(static_cast<Eigen::Index>(i)) - values(0)});
-    const std::vector<std::size_t> order = risingOrder(result.items);
+    const std::vector<std::size_t> order = orderOf(result);
     for (std::size_t i = 0; i + 1 < order.size(); ++i)
         result.steps.push_back({order[i], order[i + 1],
                                 result.items[order[i + 1]].value - result.items[order[i]].value});

@@ -27,10 +27,10 @@ struct ScaleItem {
     std::vector<std::pair<double, int>> counts{}; // of ratings: how often each value was given
 };
 
-// From an item to the next higher one.
+// From an item to the next one.
 struct ScaleStep {
     std::size_t from = 0, to = 0; // items
-    double difference = 0;        // >= 0
+    double difference = 0;        // >= 0 unless items have an order of their own
     std::optional<double> standardError{};
     Bounds interval{};
     std::optional<double> p{}, holm{}; // of the same scale's steps
@@ -59,6 +59,7 @@ struct ScaleResult {
     std::string intervals;          // how they came about
     std::vector<std::string> notes; // what to know before believing it; why there is none
     std::optional<ScaleCurve> curve{};
+    bool isOrdered = false; // items have an order of their own, that of a ladder's steps
 };
 
 ScaleResult resultOf(const ScaleGroup& group, std::string unit);
@@ -74,8 +75,8 @@ void addScale(ScaleResult& result, const Eigen::VectorXd& values, const Eigen::M
 // p of each step, and Holm's.
 void correctSteps(ScaleResult& result);
 
-// The items by rising value.
-std::vector<std::size_t> risingOrder(const std::vector<ScaleItem>& items);
+// The items in their own order, or else by rising value.
+std::vector<std::size_t> orderOf(const ScaleResult& result);
 
 constexpr int fewestPeople = 8; // whose resampling says something
 

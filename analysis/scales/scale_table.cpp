@@ -162,8 +162,7 @@ Table scaleTable(const std::vector<Scaled>& scales) {
                 {}};
     for (const auto& [kind, result] : scales) {
         const int decimals = decimalsOf(result);
-        for (const std::size_t i :
-             result.curve ? std::vector<std::size_t>{} : risingOrder(result.items)) {
+        for (const std::size_t i : result.curve ? std::vector<std::size_t>{} : orderOf(result)) {
             const ScaleItem& item = result.items[i];
             const ScaleStep* step = stepFrom(result, i);
             table.rows.push_back({std::string(kind->heading), placeOf(result.group), item.name,
@@ -225,15 +224,19 @@ std::vector<std::string> scaleSentences(const ScaleFindings& scales) {
             continue;
         }
         std::string order;
-        for (const std::size_t i : risingOrder(result.items)) {
+        for (const std::size_t i : orderOf(result)) {
             const ScaleStep* step = stepFrom(result, i);
             order += result.items[i].name;
             if (step)
-                order += step->holm && *step->holm < 0.05 ? " < " : ", ";
+                order += !step->holm || *step->holm >= 0.05 ? ", "
+                         : step->difference > 0             ? " < "
+                                                            : " > ";
         }
-        sentences.push_back(fmt::format("{}, by rising {}: {} (\"<\" where neighbours differ at "
+        sentences.push_back(fmt::format("{}, by {}{}: {} (\"<\" where neighbours differ at "
                                         ".05, corrected by Holm).",
-                                        placeOf(result.group), result.unit, order));
+                                        placeOf(result.group),
+                                        result.isOrdered ? "level, in " : "rising ", result.unit,
+                                        order));
     }
     sentences.insert(sentences.end(), scales.notes.begin(), scales.notes.end());
     return sentences;
