@@ -157,7 +157,8 @@ void requireOneSpelling(const std::vector<Answer>& answers, std::string_view col
     }
 }
 
-void requireOneSpelling(const std::vector<Answer>& answers, ColumnNumber number) {
+void requireOneSpelling(const std::vector<Answer>& answers,
+                        const std::function<int(std::string_view)>& number) {
     requireOneSpelling<&Vote::participantId>(answers, "participant_id", number("participant_id"));
     requireOneSpelling<&Vote::conditionId>(answers, "condition_id", number("condition_id"));
     requireOneSpelling<&Vote::level>(answers, "level", number("level"));
@@ -224,40 +225,57 @@ int removeKind(std::vector<Answer>& answers, std::string_view kind) {
         answers, [name = Symbol(kind)](const Answer& a) { return a.row.trialKind == name; }));
 }
 
-// What the presenter has kept of the protocol beside the data; nothing where it has not.
-void readOrder(const fs::path& folder, std::vector<std::string>& order) {
+// What the presenter has kept beside the data; nothing where it has not.
+std::optional<Declared> readDeclared(const fs::path& folder) {
     const fs::path path = folder / "sessions" / "design.json";
-    if (fs::exists(path))
-        for (const std::string& condition : declaredIn(readFile(path), path.string()).order)
-            order.push_back(condition);
+    return fs::exists(path) ? std::optional(declaredIn(readFile(path), path.string()))
+                            : std::nullopt;
 }
 
-// A text's symbol, found at once when it is that of the row before.
-Symbol symbolOf(const std::string& text, Symbol before) {
-    return before.text() == text ? before : Symbol(text);
-}
-
-// FNV-1a, and the library's: as good as one of 128 bits.
-std::array<std::uint64_t, 2> hashOf(std::string_view text) {
-    std::uint64_t hash = 14695981039346656037ull;
-    for (const char c : text)
-        hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-    return {hash, std::hash<std::string_view>()(text)};
-}
-
-// Of "2026-01-31T23:59:59Z", whose form has been checked.
-std::int64_t secondsOf(const std::string& time) {
-    const auto number = [&](std::size_t at, std::size_t length) {
-        int value = 0;
-        readCell(std::string_view(time).substr(at, length), value);
-        return value;
+// Claims are worth something if they are those under which the answers were given.
+void checkDeclared(const Declared& declared, const fs::path& folder,
+                   const std::vector<Answer>& rows) {
+    if (declared.claims.empty() && declared.exclusions == ExclusionRules())
+        return;
+    const Symbol hash(declared.sha256);
+    const auto alike = [&](const Answer& answer) {
+        return answer.row.designSha256 == hash || answer.row.designSha256 == Symbol();
     };
-    std::tm parts{};
-    parts.tm_year = number(0, 4) - 1900;
-    parts.tm_mon = number(5, 2) - 1;
-    parts.tm_mday = number(8, 2);
-    return std::int64_t{::timegm(&parts)} + 3600 * number(11, 2) + 60 * number(14, 2) +
-           number(17, 2);
+    if (!rows.empty() && std::none_of(rows.begin(), rows.end(), alike))
+        throw Error({(folder / "sessions" / "design.json").string(), 0, 0, {}},
+                    fmt::format("expected the design under which the answers were given "
+                                "({:.12}..., as {} says), found one of the hash {:.12}...; what it "
+                                "claims was declared for other data. Put the original back, or "
+                                "remove the file",
+                                rows.front().row.designSha256.text(), at(rows.front()),
+                                declared.sha256));
+}
+
+void declare(std::span<const fs::path> data, bool mixed, Answers& answers) {
+    bool known = false;
+    for (const fs::path& folder : data) {
+        for (SlotRecord& slot : readSlots(folder / "sessions" / "ledger.jsonl"))
+            answers.slots.push_back(std::move(slot));
+        const auto declared = readDeclared(folder);
+        if (!declared)
+            continue;
+        const bool other = known && (declared->claims != answers.declared.claims ||
+                                     declared->exclusions != answers.declared.exclusions);
+        if (other && !mixed)
+            throw Error({(folder / "sessions" / "design.json").string(), 0, 0, {}},
+                        "declares other claims or exclusions than the folders before it; analyse "
+                        "them one by one, or --allow-mixed-protocols and nothing counts as "
+                        "declared");
+        if (!mixed)
+            checkDeclared(*declared, folder, answers.counted);
+        if (other) {
+            answers.declared.claims.clear();
+            answers.declared.exclusions = {};
+        } else if (!known) {
+            answers.declared = *declared;
+        }
+        known = true;
+    }
 }
 
 struct FileRows {
@@ -302,58 +320,14 @@ Answers readAll(const std::vector<fs::path>& files, bool lenient) {
 
 } // namespace
 
-Vote::Vote(const Response& row, const Vote& above) {
-    aFirst = row.firstIs == "a";
-    studyId = symbolOf(row.studyId, above.studyId);
-    participantId = symbolOf(row.participantId, above.participantId);
-    sessionId = symbolOf(row.sessionId, above.sessionId);
-    conditionId = symbolOf(row.conditionId, above.conditionId);
-    level = symbolOf(row.level, above.level);
-    scene = symbolOf(row.scene, above.scene);
-    hypothesis = symbolOf(row.hypothesis, above.hypothesis);
-    techniqueA = symbolOf(row.techniqueA, above.techniqueA);
-    techniqueB = symbolOf(row.techniqueB, above.techniqueB);
-    sha256A = symbolOf(aFirst ? row.sha256First : row.sha256Second, above.sha256A);
-    sha256B = symbolOf(aFirst ? row.sha256Second : row.sha256First, above.sha256B);
-    trialKind = symbolOf(row.trialKind, above.trialKind);
-    timestampSource = symbolOf(row.timestampSource, above.timestampSource);
-    appVersion = symbolOf(row.appVersion, above.appVersion);
-    gitCommit = symbolOf(row.gitCommit, above.gitCommit);
-    protocolSha256 = symbolOf(row.protocolSha256, above.protocolSha256);
-    designSha256 = symbolOf(row.designSha256, above.designSha256);
-    machineId = symbolOf(row.machineId, above.machineId);
-    rowIdHash = hashOf(row.rowId);
-    wallTime = secondsOf(row.wallTimeUtc);
-    maskMs = row.maskMs;
-    view1Ms = row.view1Ms;
-    view2Ms = row.view2Ms;
-    decisionRtMs = row.decisionRtMs;
-    refreshHz = row.refreshHz;
-    slotId = row.slotId;
-    squareId = row.squareId;
-    squareRow = row.squareRow;
-    trialIndex = row.trialIndex;
-    repeatIndex = row.repeatIndex;
-    maskFramesPlanned = row.maskFramesPlanned;
-    maskFramesShown = row.maskFramesShown;
-    missedFrames = row.missedFrames;
-    earlyPressesInMask = row.earlyPressesInMask;
-    simulated = row.simulated;
-    rehearsal = row.rehearsal;
-    pairsReversed = row.pairsReversed;
-    choseB = row.choseB;
-    interrupted = row.interrupted;
-}
-
 Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules) {
     Answers answers = readAll(filesOf(data), rules.lenient);
-    for (const fs::path& given : data)
-        readOrder(given, answers.order);
-    applyRules(answers, rules, columnNumber);
+    applyRules(answers, data, rules, {columnNumber, true});
     return answers;
 }
 
-void applyRules(Answers& answers, const AnswerRules& rules, ColumnNumber columnNumberOf) {
+void applyRules(Answers& answers, std::span<const fs::path> data, const AnswerRules& rules,
+                const TableForm& form) {
     std::vector<Answer>& rows = answers.counted;
     removeRehearsals(answers);
     removeSimulated(rows, rules.simulated, answers.leftOut);
@@ -361,13 +335,26 @@ void applyRules(Answers& answers, const AnswerRules& rules, ColumnNumber columnN
         requireOneStudy(rows);
     if (!rules.mixedProtocols)
         requireOneDesign(rows);
-    requireOneSpelling(rows, columnNumberOf);
+    requireOneSpelling(rows, form.columnNumber);
+    declare(data, rules.mixedProtocols, answers);
     answers.leftOut.duplicates = removeDuplicates(rows, rules.duplicates);
     answers.leftOut.practice = removeKind(rows, "practice");
+    Declared declared = answers.declared;
+    if (!form.isChoice) { // these ask which image was chosen
+        declared.exclusions.catches = 0;
+        declared.exclusions.onePosition = 1;
+    }
+    answers.excluded = exclude(rows, declared, answers.slots, rules.excluded);
+    removeKind(answers.excluded.rows, "catch");
     answers.leftOut.catches = removeKind(rows, "catch");
     if (!rules.interrupted)
         answers.leftOut.interrupted = static_cast<int>(
             std::erase_if(rows, [](const Answer& a) { return a.row.interrupted; }));
+    if (rows.empty() && !answers.excluded.rows.empty())
+        throw Error(fmt::format("expected answers that count, found none: all {} are excluded "
+                                "(first: {})",
+                                answers.excluded.rows.size(),
+                                answers.excluded.reasons.front().reason));
     if (rows.empty())
         throw Error(fmt::format("expected answers to main trials, found none in {} file(s)",
                                 answers.files));

@@ -93,7 +93,7 @@ std::string data(const Findings& findings, const std::vector<Line>& lines, const
         const auto verdict =
             tally ? verdicts[static_cast<std::size_t>(tally - findings.tallies.data())]
                   : std::nullopt;
-        if (!verdict || verdict->differs != different)
+        if (!verdict || verdict->differs() != different)
             continue;
         const Interval interval = clopperPearson(tally->votes.b, tally->votes.total());
         block += fmt::format("{} {} {} {}\n", 100.0 * tally->votes.b / tally->votes.total(),

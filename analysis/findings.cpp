@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace obscura {
 
@@ -43,15 +44,9 @@ Interval intervalOf(const Tally& tally) {
     return clopperPearson(tally.votes.b, tally.votes.total());
 }
 
-// So many votes that hardly any preference is left to find: the interval lies around one half.
-bool isEven(const Tally& tally, const Verdict& verdict) {
-    const Interval interval = intervalOf(tally);
-    return !verdict.differs && interval.low >= 0.45 && interval.high <= 0.55;
-}
-
 std::vector<Tally> undecided(const Findings& findings) {
-    return select(findings, [](const Tally& tally, const Verdict& verdict) {
-        return !verdict.differs && !isEven(tally, verdict);
+    return select(findings, [](const Tally&, const Verdict& verdict) {
+        return verdict.outcome == Verdict::Outcome::undecided;
     });
 }
 
@@ -93,18 +88,19 @@ std::string extent(const Findings& findings) {
 
 std::string differences(const Findings& findings) {
     const auto found =
-        select(findings, [](const Tally&, const Verdict& verdict) { return verdict.differs; });
+        select(findings, [](const Tally&, const Verdict& verdict) { return verdict.differs(); });
     const std::string list = found.empty() ? "" : ": " + listOf(found, preference);
     return fmt::format("{} of {} conditions {} from an even split at .05 (exact binomial test, "
-                       "corrected by Holm within each hypothesis){}.",
+                       "corrected by Holm within each {}){}.",
                        found.size(), tested(findings).size(),
-                       found.size() == 1 ? "differs" : "differ", list);
+                       found.size() == 1 ? "differs" : "differ",
+                       findings.claims.empty() ? "hypothesis" : "claim", list);
 }
 
 // What only looks like a difference, because there are several tests.
 std::string uncorrected(const Findings& findings) {
     const auto lost = select(findings, [](const Tally& tally, const Verdict& verdict) {
-        return !verdict.differs && !splitsEvenly(tally.votes);
+        return !verdict.differs() && !splitsEvenly(tally.votes);
     });
     if (lost.empty())
         return {};
@@ -127,18 +123,74 @@ std::string disagreement(const Findings& findings) {
                        listOf(split, preference));
 }
 
+// A margin nobody has declared is named, too.
 std::string evenSplits(const Findings& findings) {
-    const auto even = select(findings, isEven);
-    if (even.empty())
+    std::string list;
+    const auto verdicts = verdictsOf(findings.tallies);
+    for (std::size_t i = 0; i < verdicts.size(); ++i) {
+        if (!verdicts[i] || verdicts[i]->outcome != Verdict::Outcome::equivalent)
+            continue;
+        const Tally& tally = findings.tallies[i];
+        const auto [low, high] = intervalOf(tally);
+        list += fmt::format("{}with {} votes, the share of {} over {} ({}) lies from {:.1f} to "
+                            "{:.1f} % (95 % interval), and within 50 ∓ {:.0f} % by two exact "
+                            "one-sided tests",
+                            list.empty() ? "" : "; ", tally.votes.total(), tally.techniqueB,
+                            tally.techniqueA, place(tally), 100 * low, 100 * high,
+                            100 * verdicts[i]->margin);
+    }
+    return list.empty() ? "" : fmt::format("No noticeable preference: {}.", list);
+}
+
+std::string unusable(const Findings& findings) {
+    std::map<std::string, int> reasons;
+    for (const auto& verdict : verdictsOf(findings.tallies))
+        if (verdict && verdict->outcome == Verdict::Outcome::unusable)
+            ++reasons[verdict->why];
+    std::string list;
+    for (const auto& [why, conditions] : reasons)
+        list += fmt::format("{}{} of {} conditions: {}", list.empty() ? "" : "; ", conditions,
+                            findings.tallies.size(), why);
+    return list.empty() ? "" : fmt::format("Not to be used: {}.", list);
+}
+
+std::string declaredOrNot(const Findings& findings) {
+    if (findings.claims.empty())
+        return "Nothing was claimed before the data: all of this is exploratory, and the "
+               "hypotheses named in the data form the families for corrections.";
+    std::string list;
+    for (const Tally& tally : findings.tallies)
+        if (tally.votes.total() > 0 && tally.family.empty())
+            list += (list.empty() ? "" : ", ") + tally.condition;
+    return list.empty() ? ""
+                        : fmt::format("No claim names these conditions, which are "
+                                      "exploratory: {}.",
+                                      list);
+}
+
+// What the exclusions change, or that they change nothing.
+std::string exclusionsOf(const Findings& findings) {
+    if (!findings.whole)
         return {};
-    return fmt::format("No noticeable preference: {}.", listOf(even, [](const Tally& tally) {
-                           const auto [low, high] = intervalOf(tally);
-                           return fmt::format("with {} votes, the share of {} over {} ({}) lies "
-                                              "from {:.1f} to {:.1f} % (95 % interval)",
-                                              tally.votes.total(), tally.techniqueB,
-                                              tally.techniqueA, place(tally), 100 * low,
-                                              100 * high);
-                       }));
+    int trials = 0;
+    for (const Exclusion& exclusion : findings.exclusions)
+        trials += exclusion.trials;
+    std::string changed;
+    const auto add = [&](const std::string& what, std::string_view without, std::string_view with) {
+        if (without != with)
+            changed += fmt::format("{}{} would be {} instead of {}", changed.empty() ? "" : "; ",
+                                   what, with, without);
+    };
+    for (std::size_t i = 0; i < findings.claims.size(); ++i)
+        add(fmt::format("\u201c{}\u201d", findings.claims[i].claim.name),
+            nameOf(findings.claims[i].outcome), nameOf(findings.whole->claims[i].outcome));
+    const auto without = verdictsOf(findings.tallies), with = verdictsOf(findings.whole->tallies);
+    for (std::size_t i = 0; i < without.size(); ++i)
+        if (without[i] && with[i])
+            add(findings.tallies[i].condition, nameOf(without[i]->outcome),
+                nameOf(with[i]->outcome));
+    return fmt::format("{} votes do not count, by rules and reasons named below. With them, {}.",
+                       trials, changed.empty() ? "no answer would be another" : changed);
 }
 
 std::string notEquivalence(const Findings& findings) {
@@ -175,6 +227,10 @@ std::string missing(const Findings& findings) {
         return {};
     return fmt::format("No votes yet: {}.",
                        listOf(empty, [](const Tally& tally) { return tally.condition; }));
+}
+
+double positionShare(const Conduct& conduct) {
+    return static_cast<double>(conduct.secondChosen) / conduct.trials;
 }
 
 std::string bShare(int chosen, int shown) {
@@ -221,6 +277,75 @@ std::string positionExplains(const Conduct& conduct) {
 
 } // namespace
 
+namespace {
+
+// Why the votes of a condition cannot be believed, as far as the order shows it.
+void markFaults(std::vector<Tally>& tallies, const Conduct& conduct) {
+    const Interval second = clopperPearson(conduct.secondChosen, conduct.trials);
+    for (Tally& tally : tallies) {
+        const auto shown = conduct.shown.find(tally.condition);
+        if (shown == conduct.shown.end())
+            continue;
+        const auto [bFirst, bSecond, chosenFirst, chosenSecond] = shown->second;
+        if (second.low > 0.75 || second.high < 0.25)
+            tally.fault =
+                fmt::format("position decides: the {} picture was chosen in {:.0f} % of "
+                            "all votes",
+                            second.low > 0.75 ? "second" : "first",
+                            100 * std::max(positionShare(conduct), 1 - positionShare(conduct)));
+        else if (bFirst == 0 || bSecond == 0)
+            tally.fault = fmt::format("b was always the {} picture, so that a preference for a "
+                                      "position cannot be told from one for a picture",
+                                      bFirst == 0 ? "second" : "first");
+    }
+}
+
+std::vector<Tally> judgeable(std::vector<Tally> tallies, const Conduct& conduct,
+                             const std::vector<Claim>& claims) {
+    assignFamilies(tallies, claims);
+    markFaults(tallies, conduct);
+    return tallies;
+}
+
+} // namespace
+
+Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
+                    const std::vector<Claim>& claims) {
+    const auto& declared = answers.declared.claims.empty() ? claims : answers.declared.claims;
+    Findings findings;
+    findings.stimuli = std::move(stimuli);
+    const Manifest* manifest = findings.stimuli ? &*findings.stimuli : nullptr;
+    const auto& order = answers.declared.order;
+    findings.title = manifest ? manifest->title : answers.counted.front().row.studyId;
+    findings.conduct = conductOf(answers);
+    findings.tallies =
+        judgeable(tallyVotes(answers.counted, manifest, order), *findings.conduct, declared);
+    findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
+    findings.claims = testClaims(declared, findings.tallies, &answers.counted);
+    findings.scales = scaleFindings(findings.tallies, &answers.counted, manifest);
+    findings.exclusions = answers.excluded.reasons;
+    if (answers.excluded.rows.empty())
+        return findings;
+    Answers all = answers;
+    all.counted.insert(all.counted.end(), answers.excluded.rows.begin(),
+                       answers.excluded.rows.end());
+    std::vector<Tally> tallies =
+        judgeable(tallyVotes(all.counted, manifest, order), conductOf(all), declared);
+    findings.scales.whole = scaleFindings(tallies, &all.counted, manifest).all;
+    findings.whole = {tallies, testClaims(declared, tallies, &all.counted)};
+    return findings;
+}
+
+Findings findingsOf(std::string title, std::vector<Tally> counts,
+                    const std::vector<Claim>& claims) {
+    assignFamilies(counts, claims);
+    Findings findings{std::move(title), std::move(counts), std::nullopt, std::nullopt};
+    findings.tests = testsOf(studyData(findings.tallies, nullptr));
+    findings.scales = scaleFindings(findings.tallies, nullptr, nullptr);
+    findings.claims = testClaims(claims, findings.tallies, nullptr);
+    return findings;
+}
+
 std::vector<Tested> testsOf(const StudyData& data) {
     std::vector<Tested> tests;
     for (const TestKind& kind : testKinds())
@@ -263,10 +388,12 @@ std::vector<std::string> summaryOf(const Findings& findings) {
         sentences.insert(sentences.begin(), extent(findings));
         return sentences;
     }
+    for (const ClaimResult& claim : findings.claims)
+        sentences.push_back(sentenceOf(claim));
     for (const std::string& sentence :
-         {extent(findings), differences(findings), uncorrected(findings), disagreement(findings),
-          evenSplits(findings), notEquivalence(findings), repeatedVotes(findings),
-          missing(findings)})
+         {extent(findings), declaredOrNot(findings), differences(findings), uncorrected(findings),
+          disagreement(findings), evenSplits(findings), notEquivalence(findings),
+          unusable(findings), exclusionsOf(findings), repeatedVotes(findings), missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
     for (const std::string& sentence : scaleSentences(findings.scales))

@@ -5,11 +5,13 @@
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
 #include "analysis/report.h"
+#include "analysis/results.h"
 #include "analysis/scales/scale_table.h"
 #include "analysis/scales/trial_findings.h"
 #include "analysis/table.h"
 #include "base/files.h"
 #include "base/version.h"
+#include "protocols/reader/protocol.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -25,7 +27,7 @@ namespace {
 
 struct Options {
     std::vector<fs::path> data;
-    fs::path counts, stimuli, out = "report", csv;
+    fs::path counts, stimuli, protocol, out = "report", csv;
     AnswerRules rules;
 };
 
@@ -48,9 +50,12 @@ void declare(CLI::App& app, Options& options) {
                                    "of conditions, adds the contact sheet to the report, and "
                                    "checks that these images were shown")
                         ->option_text("DIR");
+    app.add_option("--protocol", options.protocol,
+                   "Protocol whose [[claims]] are tested where the study's folder keeps no design "
+                   "with claims")
+        ->option_text("FILE");
     counts->excludes(data)->excludes(stimuli);
-    app.add_option("--out", options.out,
-                   "Folder for report.html, votes.csv, tests.csv and scales.csv")
+    app.add_option("--out", options.out, "Folder for report.html and the tables")
         ->option_text("DIR=report");
     app.add_option("--csv", options.csv, "Where the CSV goes instead of votes.csv in that folder")
         ->option_text("FILE");
@@ -70,37 +75,28 @@ void declareRules(CLI::App& app, AnswerRules& rules) {
                  "Pool rows of several designs of a study; other texts are no other design");
     app.add_flag("--allow-duplicates", rules.duplicates,
                  "Where a trial has several rows, count the first and leave out the others");
+    app.add_option("--exclude", rules.excluded,
+                   "Rows that do not count: a CSV file with the columns "
+                   "participant_id,session_id,condition_id,reason, an empty cell for all")
+        ->option_text("FILE");
     app.add_flag_callback(
         "--exclude-interrupted", [&rules] { rules.interrupted = false; },
         "Leave out trials during which the window lost the keyboard; else they count");
 }
 
-Findings published(const fs::path& counts) {
-    Findings findings{fmt::format("Published counts: {}", counts.filename().string()),
-                      readCounts(counts), std::nullopt, std::nullopt};
-    findings.tests = testsOf(studyData(findings.tallies, nullptr));
-    const ScaleData scales = scaleData(findings.tallies, nullptr, nullptr);
-    findings.scales = {scalesOf(scales), scales.notes};
-    return findings;
-}
-
 Findings findingsOf(const Options& options) {
+    const std::vector<Claim> claims =
+        options.protocol.empty() ? std::vector<Claim>() : readProtocol(options.protocol).claims;
     if (!options.counts.empty())
-        return published(options.counts);
-    Findings findings;
+        return findingsOf(fmt::format("Published counts: {}", options.counts.filename().string()),
+                          readCounts(options.counts), claims);
+    std::optional<Manifest> stimuli;
     if (!options.stimuli.empty())
-        findings.stimuli = readManifest(options.stimuli / "manifest.json");
+        stimuli = readManifest(options.stimuli / "manifest.json");
     if (isTrialData(options.data))
-        return trialFindings(options.data, options.rules, findings.stimuli);
+        return trialFindings(options.data, options.rules, stimuli);
     const Answers answers = collectAnswers(options.data, options.rules);
-    const Manifest* stimuli = findings.stimuli ? &*findings.stimuli : nullptr;
-    findings.title = stimuli ? stimuli->title : answers.counted.front().row.studyId;
-    findings.tallies = tallyVotes(answers.counted, stimuli, answers.order);
-    findings.conduct = conductOf(answers);
-    findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
-    const ScaleData scales = scaleData(findings.tallies, &answers.counted, stimuli);
-    findings.scales = {scalesOf(scales), scales.notes};
-    return findings;
+    return findingsOf(answers, std::move(stimuli), claims);
 }
 
 void printFindings(const Findings& findings) {
@@ -154,10 +150,14 @@ int analyse(int argc, char** argv) {
     if (isPairs) {
         writeFile(csv, resultCsv(findings));
         writeFile(options.out / "tests.csv", testsCsv(findings));
+        writeFile(options.out / "results.csv", resultsCsv(findings));
+        writeFile(options.out / "results.json", resultsJson(findings));
     }
     if (!isPairs || !findings.scales.all.empty())
         writeFile(isPairs ? options.out / "scales.csv" : csv,
-                  scalesCsv(findings.scales.all, sourceOf(findings)));
+                  scalesCsv(findings.scales, sourceOf(findings)));
+    if (!findings.exclusions.empty())
+        writeFile(options.out / "exclusions.csv", exclusionsCsv(findings));
     writeFile(report, page);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());

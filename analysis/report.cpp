@@ -51,7 +51,7 @@ std::string tableHtml(const Table& table, const std::vector<Tally>& tallies) {
     const auto verdicts = verdictsOf(tallies);
     for (std::size_t i = 0; i < table.rows.size(); ++i)
         html += fmt::format("<tr{}>{}</tr>\n",
-                            verdicts[i] && verdicts[i]->differs ? " class=\"differs\"" : "",
+                            verdicts[i] && verdicts[i]->differs() ? " class=\"differs\"" : "",
                             row("td", table, table.rows[i]));
     return html + "</tbody></table></div>\n";
 }

@@ -143,7 +143,7 @@ std::string resultCsv(const Findings& findings) {
         csv += fmt::format(",{}", field.name);
     for (const CountStatistic& statistic : countStatistics())
         csv += fmt::format(",{}", statistic.id);
-    csv += ",p_holm,p_benjamini_hochberg,caution\n";
+    csv += ",p_holm,p_benjamini_hochberg,family,verdict,caution\n";
     const std::string caution = fmt::format("{}", fmt::join(cautionsOf(findings), " "));
     const auto verdicts = verdictsOf(findings.tallies);
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
@@ -156,7 +156,8 @@ std::string resultCsv(const Findings& findings) {
         csv += verdicts[i]
                    ? fmt::format(",{},{}", verdicts[i]->holm, verdicts[i]->benjaminiHochberg)
                    : ",,";
-        csv += fmt::format(",{}\n", csvCell(caution));
+        csv += fmt::format(",{},{},{}\n", csvCell(tally.family),
+                           verdicts[i] ? nameOf(verdicts[i]->outcome) : "", csvCell(caution));
     }
     return csv;
 }

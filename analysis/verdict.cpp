@@ -1,24 +1,57 @@
 #include "analysis/verdict.h"
 
+#include "inference/equivalence.h"
 #include "inference/multiplicity.h"
 
+#include <array>
 #include <map>
 
 namespace obscura {
+
+namespace {
+
+using Outcome = Verdict::Outcome;
+
+void decide(const Tally& tally, Verdict& verdict) {
+    const double margin = tally.margin > 0 ? tally.margin : undeclaredMargin;
+    if (!tally.fault.empty()) {
+        verdict.outcome = Outcome::unusable;
+        verdict.why = tally.fault;
+    } else if (tally.votes.total() < fewestVotes) {
+        verdict.outcome = Outcome::unusable;
+        verdict.why = "too few votes: even unanimous ones could be chance";
+    } else if (verdict.holm < significance) {
+        verdict.outcome = Outcome::differs;
+    } else if (equivalenceP(tally.votes, margin) < significance) {
+        verdict.outcome = Outcome::equivalent;
+        verdict.margin = margin;
+    }
+}
+
+} // namespace
+
+std::string_view nameOf(Outcome outcome) {
+    constexpr std::array<std::string_view, 4> names = {"differs", "equivalent", "undecided",
+                                                       "unusable"};
+    return names[static_cast<std::size_t>(outcome)];
+}
 
 std::vector<std::optional<Verdict>> verdictsOf(const std::vector<Tally>& tallies) {
     std::map<std::string, std::vector<std::size_t>> families;
     for (std::size_t i = 0; i < tallies.size(); ++i)
         if (tallies[i].votes.total() > 0)
-            families[tallies[i].hypothesis].push_back(i);
+            families[tallies[i].family].push_back(i);
     std::vector<std::optional<Verdict>> verdicts(tallies.size());
-    for (const auto& [hypothesis, members] : families) {
+    for (const auto& [family, members] : families) {
         std::vector<double> p;
         for (const std::size_t member : members)
             p.push_back(exactP(tallies[member].votes));
         const std::vector<double> adjusted = holm(p), discoveries = benjaminiHochberg(p);
-        for (std::size_t i = 0; i < members.size(); ++i)
-            verdicts[members[i]] = {adjusted[i], discoveries[i], adjusted[i] < significance};
+        for (std::size_t i = 0; i < members.size(); ++i) {
+            Verdict verdict{adjusted[i], discoveries[i]};
+            decide(tallies[members[i]], verdict);
+            verdicts[members[i]] = std::move(verdict);
+        }
     }
     return verdicts;
 }

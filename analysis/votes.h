@@ -15,6 +15,10 @@ namespace obscura {
 struct Tally {
     std::string condition, level, scene, hypothesis, techniqueA, techniqueB;
     Votes votes;
+    // The conditions that are corrected together have the same; at first the hypothesis.
+    std::string family = hypothesis;
+    std::string fault = {}; // why its votes cannot be believed, whatever they are; "" for none
+    double margin = 0;      // declared: within 1/2 -+ that, a split is as good as even; 0: none
 };
 
 // One tally per condition, in the order of the stimuli's manifest (then every condition has one,

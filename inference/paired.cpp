@@ -190,18 +190,40 @@ std::optional<MantelHaenszel> mantelHaenszel(std::span<const FourfoldTable> stra
     return result;
 }
 
-std::optional<Test> tTest(std::span<const double> values, double centre) {
+namespace {
+
+// Of the mean; absent where the values are the same but for what rounding leaves: R's limit.
+std::optional<Estimate> meanOf(std::span<const double> values, double scale) {
     checkFinite(values);
     if (values.size() < 2)
         return std::nullopt;
     const double average = mean(values), squares = sumOfSquares(values, average);
     const auto n = static_cast<double>(values.size());
     const double error = std::sqrt(squares / (n - 1) / n);
-    // What rounding leaves of values that are the same; R's limit.
-    if (error < 10 * DBL_EPSILON * std::max(std::abs(average), std::abs(centre)))
+    if (error < 10 * DBL_EPSILON * std::max(std::abs(average), scale))
         return std::nullopt;
-    const double t = (average - centre) / error;
-    return Test{t, n - 1, studentP(t, n - 1)};
+    return Estimate{average, error};
+}
+
+} // namespace
+
+std::optional<Test> tTest(std::span<const double> values, double centre) {
+    const auto estimate = meanOf(values, std::abs(centre));
+    if (!estimate)
+        return std::nullopt;
+    const double t = (estimate->value - centre) / estimate->standardError;
+    const double df = static_cast<double>(values.size()) - 1;
+    return Test{t, df, studentP(t, df)};
+}
+
+std::optional<Interval> tInterval(std::span<const double> values, double confidence) {
+    const auto estimate = meanOf(values, 0);
+    if (!estimate)
+        return std::nullopt;
+    const double half =
+        studentQuantile((1 + confidence) / 2, static_cast<double>(values.size()) - 1) *
+        estimate->standardError;
+    return Interval{estimate->value - half, estimate->value + half};
 }
 
 std::optional<Test> signedRankTest(std::span<const double> values, double centre) {

@@ -42,6 +42,10 @@ double studentP(double statistic, double df) {
     return 2 * cdf(complement(boost::math::students_t(df), std::abs(statistic)));
 }
 
+double studentQuantile(double probability, double df) {
+    return quantile(boost::math::students_t(df), probability);
+}
+
 double normalP(double statistic) { return std::erfc(std::abs(statistic) / std::sqrt(2)); }
 
 double probit(double probability) { return quantile(boost::math::normal{}, probability); }

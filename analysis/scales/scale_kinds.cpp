@@ -44,4 +44,10 @@ std::vector<Scaled> scalesOf(const ScaleData& data) {
     return scales;
 }
 
+ScaleFindings scaleFindings(const std::vector<Tally>& tallies, const std::vector<Answer>* answers,
+                            const Manifest* stimuli) {
+    ScaleData data = scaleData(tallies, answers, stimuli);
+    return {scalesOf(data), std::move(data.notes)};
+}
+
 } // namespace obscura

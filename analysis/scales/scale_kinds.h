@@ -29,7 +29,12 @@ std::vector<Scaled> scalesOf(const ScaleData& data);
 struct ScaleFindings {
     std::vector<Scaled> all;
     std::vector<std::string> notes;
+    std::vector<Scaled> whole = {}; // with the excluded answers; none where nothing is excluded
 };
+
+// Those of rows of pairs, as scaleData() takes them.
+ScaleFindings scaleFindings(const std::vector<Tally>& tallies, const std::vector<Answer>* answers,
+                            const Manifest* stimuli);
 
 // Their functions.
 std::vector<ScaleResult> thurstoneScales(const ScaleData& data);

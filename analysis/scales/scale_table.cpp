@@ -143,6 +143,36 @@ std::vector<Line> linesOf(const ScaleResult& result) {
     return lines;
 }
 
+// The items of a scale with the steps that differ.
+std::string orderText(const ScaleResult& result) {
+    std::string order;
+    for (const std::size_t i : orderOf(result)) {
+        const ScaleStep* step = stepFrom(result, i);
+        order += result.items[i].name;
+        if (step)
+            order += !step->holm || *step->holm >= 0.05 ? ", "
+                     : step->difference > 0             ? " < "
+                                                        : " > ";
+    }
+    return order;
+}
+
+// Whether the excluded answers would make a difference that somebody would report.
+std::string changesOf(const ScaleFindings& scales) {
+    std::string changed;
+    for (const Scaled& with : scales.whole)
+        for (const Scaled& without : scales.all)
+            if (with.kind == without.kind && with.kind->isLeading &&
+                placeOf(with.result.group) == placeOf(without.result.group) &&
+                with.result.unit == without.result.unit && !with.result.curve &&
+                orderText(with.result) != orderText(without.result))
+                changed += fmt::format("{}{} would be {}", changed.empty() ? "with them " : "; ",
+                                       placeOf(with.result.group), orderText(with.result));
+    return changed.empty()
+               ? "with them no scale would have another order or other steps that differ."
+               : changed + ".";
+}
+
 } // namespace
 
 std::string placeOf(const ScaleGroup& group) {
@@ -223,38 +253,36 @@ std::vector<std::string> scaleSentences(const ScaleFindings& scales) {
                                             spelt(result.items[0].interval, decimalsOf(result))));
             continue;
         }
-        std::string order;
-        for (const std::size_t i : orderOf(result)) {
-            const ScaleStep* step = stepFrom(result, i);
-            order += result.items[i].name;
-            if (step)
-                order += !step->holm || *step->holm >= 0.05 ? ", "
-                         : step->difference > 0             ? " < "
-                                                            : " > ";
-        }
         sentences.push_back(fmt::format("{}, by {}{}: {} (\"<\" where neighbours differ at "
                                         ".05, corrected by Holm).",
                                         placeOf(result.group),
                                         result.isOrdered ? "level, in " : "rising ", result.unit,
-                                        order));
+                                        orderText(result)));
     }
     sentences.insert(sentences.end(), scales.notes.begin(), scales.notes.end());
+    if (!scales.whole.empty())
+        sentences.push_back(fmt::format("Some answers do not count, for reasons named below; {}",
+                                        changesOf(scales)));
     return sentences;
 }
 
-std::string scalesCsv(const std::vector<Scaled>& scales, const std::string& source) {
-    std::string csv = "source,scale,question,scene,level,what,name,other,value,standard_error,low,"
-                      "high,unit,statistic,df,p,p_holm,answers,people,note,method\n";
-    for (const auto& [kind, result] : scales)
-        for (const Line& line : linesOf(result))
-            csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
-                               csvCell(source), kind->id, csvCell(result.group.question),
-                               csvCell(result.group.scene), csvCell(result.group.level), line.what,
-                               csvCell(line.name), csvCell(line.other), digits(line.value),
-                               digits(line.standardError), digits(line.low), digits(line.high),
-                               csvCell(result.unit), digits(line.statistic), digits(line.df),
-                               digits(line.p), digits(line.holm), result.group.answers,
-                               result.group.people, csvCell(line.note), csvCell(kind->source));
+std::string scalesCsv(const ScaleFindings& scales, const std::string& source) {
+    std::string csv = "source,excluded_answers,scale,question,scene,level,what,name,other,value,"
+                      "standard_error,low,high,unit,statistic,df,p,p_holm,answers,people,note,"
+                      "method\n";
+    for (const auto& [excluded, list] :
+         {std::pair("left out", &scales.all), std::pair("included", &scales.whole)})
+        for (const auto& [kind, result] : *list)
+            for (const Line& line : linesOf(result))
+                csv += fmt::format(
+                    "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                    csvCell(source), scales.whole.empty() ? "none" : excluded, kind->id,
+                    csvCell(result.group.question), csvCell(result.group.scene),
+                    csvCell(result.group.level), line.what, csvCell(line.name), csvCell(line.other),
+                    digits(line.value), digits(line.standardError), digits(line.low),
+                    digits(line.high), csvCell(result.unit), digits(line.statistic),
+                    digits(line.df), digits(line.p), digits(line.holm), result.group.answers,
+                    result.group.people, csvCell(line.note), csvCell(kind->source));
     return csv;
 }
 

@@ -23,7 +23,7 @@ std::vector<std::string> scaleSentences(const ScaleFindings& scales);
 
 // As programs read them: a line for each item, step, diagnostic and note, every figure with all its
 // digits. `source` is that of the data (sourceOf).
-std::string scalesCsv(const std::vector<Scaled>& scales, const std::string& source);
+std::string scalesCsv(const ScaleFindings& scales, const std::string& source);
 
 // "atrium, sky" or "all scenes and levels", with the question where there are several.
 std::string placeOf(const ScaleGroup& group);

@@ -134,6 +134,14 @@ Vote voteOf(const AnswerRow& row) {
     return Vote(response);
 }
 
+bool choosesOfTwo(const AnsweredTrial& trial) {
+    const std::set<std::string> roles(trial.roles.begin(), trial.roles.end());
+    return roles == std::set<std::string>{"a", "b"} &&
+           std::any_of(trial.given.begin(), trial.given.end(), [](const Given& given) {
+               return given.kind.text() == "choice" && given.role != Symbol();
+           });
+}
+
 // Of one file, trial by trial, whatever the order of its lines.
 class TableReader {
   public:
@@ -234,18 +242,25 @@ TrialAnswers collectTrials(std::span<const fs::path> data, const AnswerRules& ru
                 TableReader(study, file, rules);
     for (const AnsweredTrial& trial : study.trials)
         study.answers.counted.push_back(trial.trial);
-    for (const auto& [folder, design] : study.designs)
-        if (design)
-            for (const std::string& condition : design->order)
-                study.answers.order.push_back(condition);
-    applyRules(study.answers, rules, columnNumber);
+    study.isChoice = std::all_of(study.trials.begin(), study.trials.end(), choosesOfTwo);
+    applyRules(study.answers, data, rules, {columnNumber, study.isChoice});
 
-    std::set<std::pair<std::uint32_t, int>> counted; // file and line
-    for (const Answer& answer : study.answers.counted)
-        counted.insert({answer.file.number(), answer.line});
-    std::erase_if(study.trials, [&](const AnsweredTrial& trial) {
-        return !counted.contains({trial.trial.file.number(), trial.trial.line});
-    });
+    std::vector<AnsweredTrial> all = std::move(study.trials);
+    study.trials.clear();
+    const auto keys = [](const std::vector<Answer>& rows) {
+        std::set<std::pair<std::uint32_t, int>> places; // file and line
+        for (const Answer& row : rows)
+            places.insert({row.file.number(), row.line});
+        return places;
+    };
+    const auto counted = keys(study.answers.counted), excluded = keys(study.answers.excluded.rows);
+    for (AnsweredTrial& trial : all) {
+        const auto key = std::pair(trial.trial.file.number(), trial.trial.line);
+        if (counted.contains(key))
+            study.trials.push_back(std::move(trial));
+        else if (excluded.contains(key))
+            study.excluded.push_back(std::move(trial));
+    }
     return study;
 }
 

@@ -34,8 +34,12 @@ struct AnsweredTrial {
 };
 
 struct TrialAnswers {
-    Answers answers; // a row for each trial: for conductOf()
-    std::vector<AnsweredTrial> trials;
+    Answers answers;                     // a row for each trial: for conductOf()
+    std::vector<AnsweredTrial> trials;   // that count
+    std::vector<AnsweredTrial> excluded; // by rules and reasons (exclusions.h)
+    // Not every trial is a choice between a and b, so that declared exclusions which ask for that
+    // (catch trials, one position) were not applied.
+    bool isChoice = false;
     std::map<std::string, std::shared_ptr<const DesignFacts>> designs; // by folder
 };
 

@@ -109,8 +109,10 @@ class Sorter {
             if (!name.empty() && std::find(list.begin(), list.end(), name) == list.end())
                 list.push_back(name);
         };
-        for (const std::string& condition : study_.answers.order)
-            note(conditions_, condition);
+        for (const auto& [folder, design] : study_.designs)
+            if (design)
+                for (const std::string& condition : design->order)
+                    note(conditions_, condition);
         std::map<std::string, std::map<std::string, std::string>> shown;
         for (const AnsweredTrial& trial : study_.trials) {
             const std::string& id = trial.trial.row.conditionId;

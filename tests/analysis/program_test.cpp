@@ -132,7 +132,7 @@ TEST_F(Program, SaysOfAnEvenSplitOfManyVotesThatNoPreferenceIsNoticeable) {
     const Outcome outcome = run("--counts '" + file.string() + "'");
     EXPECT_THAT(outcome.output,
                 HasSubstr("No noticeable preference: with 1000000 votes, the share of B over A "
-                          "(dragon, low) lies from 49.9 to 50.1 % (95 % interval)."));
+                          "(dragon, low) lies from 49.9 to 50.1 % (95 % interval)"));
     EXPECT_THAT(outcome.output, Not(HasSubstr("do not decide")));
 }
 
@@ -160,9 +160,38 @@ TEST_F(Program, ReadsItsOwnTableAsCounts) {
 TEST_F(Program, FollowsTheOrderOfTheStudysDesign) {
     const std::string data = study();
     writeFile(folder_ / "study/sessions/design.json",
-              R"({"order of conditions":["c2","c1"],"conditions":{}})");
+              R"({"format_version":1,"design":{"order of conditions":["c2","c1"]}})");
     ASSERT_EQ(run(data).status, 0);
     EXPECT_THAT(table().at("condition_id"), testing::ElementsAre("c2", "c1"));
+}
+
+// A claim counts as declared if the design that holds it is the one in the rows.
+TEST_F(Program, TestsTheClaimsThatTheDesignDeclares) {
+    const std::string claims =
+        R"("claims":[{"conditions":["c2"],"family":"","favours":"b",)"
+        R"("kind":"superior","margin":0.0,"name":"b is better","scores":[]}])";
+    const std::string design = "{" + claims + "}";
+    const std::string data = study();
+    const auto file = folder_ / "study/sessions/design.json";
+    writeFile(file, R"({"format_version":1,"design":)" + design + "}");
+    const Outcome other = run(data);
+    EXPECT_EQ(other.status, 1);
+    EXPECT_THAT(other.output, AllOf(HasSubstr("expected the design under which the answers were"),
+                                    HasSubstr("dddddddddddd...")));
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "study/data")) {
+        std::string rows = readFile(entry.path());
+        const std::string before(64, 'd');
+        for (std::size_t at = 0; (at = rows.find(before, at)) != std::string::npos;)
+            rows.replace(at, before.size(), sha256(design));
+        writeFile(entry.path(), rows);
+    }
+    const Outcome outcome = run(data);
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_THAT(outcome.output,
+                HasSubstr("\u201cb is better\u201d: the data support it. The share of b"));
+    EXPECT_THAT(outcome.output, HasSubstr("No claim names these conditions, which are "
+                                          "exploratory: c1"));
+    EXPECT_THAT(readFile(out() / "results.json"), HasSubstr("\"outcome\": \"supported\""));
 }
 
 TEST_F(Program, StampsSimulatedData) {

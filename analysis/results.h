@@ -1,0 +1,28 @@
+#pragma once
+
+#include "analysis/findings.h"
+#include "analysis/table.h"
+
+#include <string>
+
+namespace obscura {
+
+// Everything that was found, for programs. Statistics are named by the keys of golden_values.csv
+// where these have them, else by the columns of votes.csv.
+
+// Tidy: of,subject,statistic,value, a line for each number. `of` is condition, claim or test. What
+// does not exist has no line.
+std::string resultsCsv(const Findings& findings);
+
+// The same with all texts, as one object: source, title, cautions, summary, claims, conditions,
+// tests, exclusions.
+std::string resultsJson(const Findings& findings);
+
+// A line for each reason and person: participant_id,session_id,reason,trials.
+std::string exclusionsCsv(const Findings& findings);
+
+// For people: each claim with its numbers; each reason with how many it concerns.
+Table claimTable(const std::vector<ClaimResult>& claims);
+Table exclusionTable(const std::vector<Exclusion>& exclusions);
+
+} // namespace obscura
