@@ -59,7 +59,11 @@ ScaleResult functionOf(const Ladder& ladder) {
         result.notes.push_back("fewer than three steps: no curve");
         return result;
     }
-    const PsychometricFit fit = fitPsychometric(ladder.data, model);
+    PsychometricFit fit = fitPsychometric(ladder.data, model);
+    if (!fit.converged && !model.lapse) { // without any lapse its best value is at the edge
+        model.lapse = 0;
+        fit = fitPsychometric(ladder.data, model);
+    }
     result.curve = ScaleCurve{ladder, model, fit.parameters};
     if (!fit.converged) {
         result.notes.push_back("the answers do not bound the curve: it is flat, or a step");

@@ -48,7 +48,8 @@ Mean meanOf(const std::vector<double>& values) {
     Mean mean;
     const auto n = static_cast<double>(values.size());
     for (const double value : values)
-        mean.value += value / n;
+        mean.value += value;
+    mean.value /= n;
     double squares = 0;
     for (const double value : values)
         squares += (value - mean.value) * (value - mean.value);

@@ -243,7 +243,9 @@ TrialAnswers collectTrials(std::span<const fs::path> data, const AnswerRules& ru
     for (const AnsweredTrial& trial : study.trials)
         study.answers.counted.push_back(trial.trial);
     study.isChoice = std::all_of(study.trials.begin(), study.trials.end(), choosesOfTwo);
+    const int within = study.answers.leftOut.duplicates; // trials
     applyRules(study.answers, data, rules, {columnNumber, study.isChoice});
+    study.answers.leftOut.duplicates += within;
 
     std::vector<AnsweredTrial> all = std::move(study.trials);
     study.trials.clear();
