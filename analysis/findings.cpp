@@ -1,6 +1,6 @@
 #include "analysis/findings.h"
 
-#include "analysis/scales/scale_table.h"
+#include "analysis/scales/scale_words.h"
 #include "analysis/verdict.h"
 
 #include "inference/paired.h"

@@ -2,6 +2,7 @@
 
 #include "analysis/scales/panels.h"
 #include "analysis/scales/scale_table.h"
+#include "analysis/scales/scale_words.h"
 #include "report/gnuplot.h"
 #include "report/marks.h"
 

@@ -1,6 +1,7 @@
 #include "analysis/scales/scale_page.h"
 
 #include "analysis/scales/scale_table.h"
+#include "analysis/scales/scale_words.h"
 #include "report/html.h"
 
 #include <fmt/format.h>

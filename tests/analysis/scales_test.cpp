@@ -1,6 +1,7 @@
 // Scales of studies of pairs: through the rows, the rules and the tallies.
 #include "analysis/findings.h"
 #include "analysis/scales/scale_table.h"
+#include "analysis/scales/scale_words.h"
 #include "tests/analysis/sample_study.h"
 
 #include <gmock/gmock.h>

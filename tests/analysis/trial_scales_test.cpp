@@ -1,5 +1,6 @@
 // Studies whose trials are no pairs: from their tables of answers to their scales.
 #include "analysis/scales/scale_table.h"
+#include "analysis/scales/scale_words.h"
 #include "analysis/scales/trial_findings.h"
 #include "tests/analysis/trial_study.h"
 #include "tests/error_of.h"
