@@ -16,7 +16,8 @@ namespace {
 
 // Beyond these, people are not told apart: resampling them would take longer than all the rest.
 constexpr std::size_t mostVotes = 200000;
-constexpr std::size_t mostCells = 2000000; // of all people's tables of wins in a group
+constexpr std::size_t mostPeople = 2000;
+constexpr std::size_t mostCells = 200000; // of all people's tables of wins in a group
 
 using Members = std::vector<const Tally*>;
 
@@ -78,7 +79,7 @@ void addPeople(Comparisons& group, const Places& places, const std::vector<Answe
         ++(answer.row.choseB ? group.winsOf[index](b, a) : group.winsOf[index](a, b));
     }
     group.people = static_cast<int>(people.size());
-    if (people.size() * static_cast<std::size_t>(n * n) > mostCells) {
+    if (people.size() > mostPeople || people.size() * static_cast<std::size_t>(n * n) > mostCells) {
         group.winsOf.clear();
         group.notes.push_back("too many people to resample them");
     }
