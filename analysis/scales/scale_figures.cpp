@@ -423,12 +423,14 @@ std::vector<StudyFigure> scaleFigures(const Findings& findings) {
         Results results;
     };
     std::vector<Group> groups;
-    for (const auto& [kind, result] : findings.scales.all) {
+    for (const Scaled& one : findings.scales.all) {
+        const ScaleKind* kind = one.kind;
+        const ScaleResult& result = one.result;
         if (!kind->isLeading || result.items.empty())
             continue;
-        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& one) {
-            return one.kind == kind && one.question == result.group.question &&
-                   one.results.front()->unit == result.unit;
+        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& known) {
+            return known.kind == kind && known.question == result.group.question &&
+                   known.results.front()->unit == result.unit;
         });
         if (group == groups.end())
             group = groups.insert(group, {kind, result.group.question, {}});
