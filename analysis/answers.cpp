@@ -3,7 +3,7 @@
 #include "base/csv.h"
 #include "base/files.h"
 #include "base/parallel.h"
-#include "protocols/reader/design.h"
+#include "protocols/reader/claims.h"
 
 #include <fmt/format.h>
 
@@ -38,12 +38,7 @@ std::vector<fs::path> filesOf(const fs::path& given) {
         if (isDataFile(entry))
             files.push_back(entry.path());
     if (files.empty())
-        throw Error({folder.string(), 0, 0, {}},
-                    fs::exists(given / "sessions" / "design.json")
-                        ? "expected rows of pairs, found none: the trials of this study are no "
-                          "pairs, and this program reads only those so far. Its answers are in "
-                          "sessions/*_answers.csv"
-                        : "expected CSV files of responses, found none");
+        throw Error({folder.string(), 0, 0, {}}, "expected CSV files of responses, found none");
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -145,7 +140,7 @@ int columnNumber(std::string_view name) {
 
 // `S01` and `s01` are one person, written twice.
 template <auto field>
-void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column) {
+void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column, int number) {
     std::map<std::pair<std::uint32_t, std::string>, const Answer*> seen;
     std::set<std::pair<std::uint32_t, std::uint32_t>> known; // study and name
     for (const Answer& answer : answers) {
@@ -155,18 +150,19 @@ void requireOneSpelling(const std::vector<Answer>& answers, std::string_view col
         const auto [first, isNew] = seen.try_emplace({study.number(), folded(name)}, &answer);
         if (const Answer& other = *first->second; other.row.*field != name)
             throw Error(
-                {answer.file, answer.line, columnNumber(column), std::string(column)},
+                {answer.file, answer.line, number, std::string(column)},
                 fmt::format("expected \"{}\" as in {}, found \"{}\"; write it one way in all "
                             "rows, or with more than a letter's case between them",
                             other.row.*field, at(other), name));
     }
 }
 
-void requireOneSpelling(const std::vector<Answer>& answers) {
-    requireOneSpelling<&Vote::participantId>(answers, "participant_id");
-    requireOneSpelling<&Vote::conditionId>(answers, "condition_id");
-    requireOneSpelling<&Vote::level>(answers, "level");
-    requireOneSpelling<&Vote::scene>(answers, "scene");
+void requireOneSpelling(const std::vector<Answer>& answers,
+                        const std::function<int(std::string_view)>& number) {
+    requireOneSpelling<&Vote::participantId>(answers, "participant_id", number("participant_id"));
+    requireOneSpelling<&Vote::conditionId>(answers, "condition_id", number("condition_id"));
+    requireOneSpelling<&Vote::level>(answers, "level", number("level"));
+    requireOneSpelling<&Vote::scene>(answers, "scene", number("scene"));
 }
 
 // What two rows must not share.
@@ -326,6 +322,12 @@ Answers readAll(const std::vector<fs::path>& files, bool lenient) {
 
 Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules) {
     Answers answers = readAll(filesOf(data), rules.lenient);
+    applyRules(answers, data, rules, {columnNumber, true});
+    return answers;
+}
+
+void applyRules(Answers& answers, std::span<const fs::path> data, const AnswerRules& rules,
+                const TableForm& form) {
     std::vector<Answer>& rows = answers.counted;
     removeRehearsals(answers);
     removeSimulated(rows, rules.simulated, answers.leftOut);
@@ -333,11 +335,16 @@ Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules)
         requireOneStudy(rows);
     if (!rules.mixedProtocols)
         requireOneDesign(rows);
-    requireOneSpelling(rows);
+    requireOneSpelling(rows, form.columnNumber);
     declare(data, rules.mixedProtocols, answers);
     answers.leftOut.duplicates = removeDuplicates(rows, rules.duplicates);
     answers.leftOut.practice = removeKind(rows, "practice");
-    answers.excluded = exclude(rows, answers.declared, answers.slots, rules.excluded);
+    Declared declared = answers.declared;
+    if (!form.isChoice) { // these ask which image was chosen
+        declared.exclusions.catches = 0;
+        declared.exclusions.onePosition = 1;
+    }
+    answers.excluded = exclude(rows, declared, answers.slots, rules.excluded);
     removeKind(answers.excluded.rows, "catch");
     answers.leftOut.catches = removeKind(rows, "catch");
     if (!rules.interrupted)
@@ -351,7 +358,6 @@ Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules)
     if (rows.empty())
         throw Error(fmt::format("expected answers to main trials, found none in {} file(s)",
                                 answers.files));
-    return answers;
 }
 
 } // namespace obscura

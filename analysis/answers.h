@@ -50,4 +50,13 @@ struct Answers {
 // declared.
 Answers collectAnswers(std::span<const std::filesystem::path> data, const AnswerRules& rules);
 
+// The rules alone, for trials from another table than that of pairs: those of `answers.counted`
+// that count stay. `data` as above.
+struct TableForm {
+    int (*columnNumber)(std::string_view); // of a column in that table, for errors
+    bool isChoice = true; // rows say which of a and b was chosen; else what asks for that is off
+};
+void applyRules(Answers& answers, std::span<const std::filesystem::path> data,
+                const AnswerRules& rules, const TableForm& form);
+
 } // namespace obscura

@@ -403,21 +403,27 @@ std::vector<ClaimResult> testClaims(const std::vector<Claim>& claims,
     return results;
 }
 
-std::string sentenceOf(const ClaimResult& result) {
-    std::string text = fmt::format("\u201c{}\u201d: {}", result.claim.name, meaningOf(result));
-    if (result.outcome == Outcome::unusable)
-        return fmt::format("{}: {}.", text, result.why);
-    text += ". " + foundOf(result);
+std::string answerOf(const ClaimResult& result) {
+    return fmt::format("\u201c{}\u201d: {}{}.", result.claim.name, meaningOf(result),
+                       result.why.empty() ? "" : ": " + result.why);
+}
+
+std::string groundsOf(const ClaimResult& result) {
+    std::string text = foundOf(result);
     if (result.test)
-        text += fmt::format("{}{}{}, {}, {} after Holm.", result.method,
-                            result.test->statistic && result.method.find("t(") != std::string::npos
-                                ? fmt::format(" = {}", readable(*result.test->statistic))
-                                : "",
-                            result.people > 0 ? fmt::format(", {} people", result.people) : "",
-                            pText(result.test->p), pText(result.holm));
+        text += fmt::format(
+            "{}{}{}, {}, {} after Holm.", result.method,
+            result.test->df ? fmt::format(" = {}", readable(*result.test->statistic)) : "",
+            result.people > 0 ? fmt::format(", {} people", result.people) : "",
+            pText(result.test->p), pText(result.holm));
     for (const std::string& note : result.notes)
-        text += fmt::format(" Note: {}.", note);
+        text += fmt::format("{}Note: {}.", text.empty() ? "" : " ", note);
     return text;
+}
+
+std::string sentenceOf(const ClaimResult& result) {
+    const std::string grounds = groundsOf(result);
+    return answerOf(result) + (grounds.empty() ? "" : " " + grounds);
 }
 
 void assignFamilies(std::vector<Tally>& tallies, const std::vector<Claim>& claims) {

@@ -48,7 +48,9 @@ std::vector<ClaimResult> testClaims(const std::vector<Claim>& claims,
                                     const std::vector<Tally>& tallies,
                                     const std::vector<Answer>* answers);
 
-// The answer in words, for somebody who knows no statistics, and then the numbers.
+// The answer in words, for somebody who knows no statistics; the numbers on which it rests; both.
+std::string answerOf(const ClaimResult& result);
+std::string groundsOf(const ClaimResult& result);
 std::string sentenceOf(const ClaimResult& result);
 
 // Gives each tally the family in which its own test is corrected: the first claim of another kind

@@ -273,6 +273,14 @@ std::string images(const Conduct& c) {
 } // namespace
 
 std::vector<Fact> factsOf(const Conduct& conduct) {
+    if (conduct.shown.empty()) // trials that are no pairs
+        return {{"Participants", people(conduct)},
+                {"Trials", trials(conduct)},
+                {"Median time to the answer (5–95 %)", seconds(conduct.decisionMs)},
+                {"Machine", fmt::format("{}", fmt::join(conduct.machines, ", "))},
+                {"Presented by",
+                 fmt::format("obscura-experiment {}", fmt::join(conduct.programs, ", "))},
+                {"Protocol, SHA-256", fmt::format("{}", fmt::join(conduct.protocols, ", "))}};
     return {
         {"Participants", people(conduct)},
         {"Trials", trials(conduct)},

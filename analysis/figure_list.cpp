@@ -1,6 +1,7 @@
 #include "analysis/figure_list.h"
 
 #include "analysis/people_figures.h"
+#include "analysis/scales/scale_figures.h"
 
 #include <iterator>
 #include <utility>
@@ -10,8 +11,8 @@ namespace obscura {
 namespace {
 
 using FiguresOf = std::vector<StudyFigure> (*)(const Findings&);
-constexpr FiguresOf kinds[] = {sharesFigures, positionFigures, powerFigures,
-                               flowFigures,   timesFigures,    timingFigures};
+constexpr FiguresOf kinds[] = {sharesFigures, scaleFigures, positionFigures, powerFigures,
+                               flowFigures,   timesFigures, timingFigures};
 
 } // namespace
 

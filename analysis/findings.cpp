@@ -1,6 +1,7 @@
 #include "analysis/findings.h"
 
 #include "analysis/people_words.h"
+#include "analysis/scales/scale_words.h"
 #include "analysis/verdict.h"
 
 #include "inference/paired.h"
@@ -68,6 +69,12 @@ std::string preference(const Tally& tally) {
 std::string extent(const Findings& findings) {
     const std::int64_t votes = totalVotes(findings);
     const std::size_t conditions = findings.tallies.size();
+    if (findings.tallies.empty() && findings.conduct)
+        return fmt::format("{} {} answered {} trials.", findings.conduct->participants,
+                           findings.conduct->simulated == findings.conduct->trials
+                               ? "simulated participants"
+                               : "participants",
+                           findings.conduct->trials);
     if (!findings.conduct)
         return fmt::format("The published counts hold {} votes on {} conditions.", votes,
                            conditions);
@@ -244,6 +251,8 @@ std::string unbalancedOrder(const Conduct& conduct) {
 }
 
 std::string positionExplains(const Conduct& conduct) {
+    if (conduct.shown.empty())
+        return {}; // trials that are no pairs
     const Votes positions{conduct.trials - conduct.secondChosen, conduct.secondChosen};
     if (splitsEvenly(positions))
         return {};
@@ -315,6 +324,7 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
     findings.people = peopleOf(answers.counted, findings.tallies);
     findings.claims = testClaims(declared, findings.tallies, &answers.counted);
+    findings.scales = scaleFindings(findings.tallies, &answers.counted, manifest);
     findings.exclusions = answers.excluded.reasons;
     if (answers.excluded.rows.empty())
         return findings;
@@ -323,6 +333,7 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
                        answers.excluded.rows.end());
     std::vector<Tally> tallies =
         judgeable(tallyVotes(all.counted, manifest, order), all.counted, conductOf(all), declared);
+    findings.scales.whole = scaleFindings(tallies, &all.counted, manifest).all;
     findings.whole = {tallies, testClaims(declared, tallies, &all.counted)};
     return findings;
 }
@@ -332,6 +343,7 @@ Findings findingsOf(std::string title, std::vector<Tally> counts,
     assignFamilies(counts, claims);
     Findings findings{std::move(title), std::move(counts), std::nullopt, std::nullopt};
     findings.tests = testsOf(studyData(findings.tallies, nullptr));
+    findings.scales = scaleFindings(findings.tallies, nullptr, nullptr);
     findings.claims = testClaims(claims, findings.tallies, nullptr);
     return findings;
 }
@@ -369,6 +381,11 @@ std::vector<std::string> cautionsOf(const Findings& findings) {
 
 std::vector<std::string> summaryOf(const Findings& findings) {
     std::vector<std::string> sentences;
+    if (findings.tallies.empty()) {
+        sentences = scaleSentences(findings.scales);
+        sentences.insert(sentences.begin(), extent(findings));
+        return sentences;
+    }
     for (const ClaimResult& claim : findings.claims)
         sentences.push_back(sentenceOf(claim));
     for (const std::string& sentence :
@@ -377,6 +394,8 @@ std::vector<std::string> summaryOf(const Findings& findings) {
           unusable(findings), exclusionsOf(findings), repeatedVotes(findings), missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
+    for (const std::string& sentence : scaleSentences(findings.scales))
+        sentences.push_back(sentence);
     if (findings.people)
         for (std::string& sentence :
              peopleSentences(*findings.people, findings.tallies, findings.tests))

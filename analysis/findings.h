@@ -3,6 +3,7 @@
 #include "analysis/claims.h"
 #include "analysis/conduct.h"
 #include "analysis/people.h"
+#include "analysis/scales/scale_kinds.h"
 #include "analysis/study_tests.h"
 #include "analysis/votes.h"
 
@@ -15,7 +16,7 @@ namespace obscura {
 // All that one run of the analysis found; the terminal, the CSV and the report show the same.
 struct Findings {
     std::string title;
-    std::vector<Tally> tallies;
+    std::vector<Tally> tallies;     // none where trials are no pairs
     std::optional<Conduct> conduct; // absent for published counts
     std::optional<Manifest> stimuli;
     std::vector<Tested> tests = {};       // beyond single conditions
@@ -28,6 +29,7 @@ struct Findings {
         std::vector<ClaimResult> claims;
     };
     std::optional<Whole> whole = {};
+    ScaleFindings scales = {};
 };
 
 // Of a study's answers. `claims` stand for those of its design where that has none.

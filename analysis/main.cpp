@@ -7,6 +7,8 @@
 #include "analysis/people_table.h"
 #include "analysis/report.h"
 #include "analysis/results.h"
+#include "analysis/scales/scale_table.h"
+#include "analysis/scales/trial_findings.h"
 #include "analysis/table.h"
 #include "base/files.h"
 #include "base/version.h"
@@ -89,12 +91,12 @@ Findings findingsOf(const Options& options) {
     if (!options.counts.empty())
         return findingsOf(fmt::format("Published counts: {}", options.counts.filename().string()),
                           readCounts(options.counts), claims);
-    const Answers answers = collectAnswers(options.data, options.rules);
-    for (const BadRow& bad : answers.bad)
-        fmt::print(stderr, "skipped: {}{}\n", bad.place.prefix(), bad.message);
     std::optional<Manifest> stimuli;
     if (!options.stimuli.empty())
         stimuli = readManifest(options.stimuli / "manifest.json");
+    if (isTrialData(options.data))
+        return trialFindings(options.data, options.rules, stimuli);
+    const Answers answers = collectAnswers(options.data, options.rules);
     return findingsOf(answers, std::move(stimuli), claims);
 }
 
@@ -103,11 +105,15 @@ void printFindings(const Findings& findings) {
         fmt::print("*** {} ***\n\n", stamp);
     for (const std::string& caution : cautionsOf(findings))
         fmt::print("*** {} ***\n\n", caution);
-    fmt::print("{}\n\n{}\n", findings.title, alignedText(resultTable(findings.tallies)));
+    fmt::print("{}\n\n", findings.title);
+    if (!findings.tallies.empty())
+        fmt::print("{}\n", alignedText(resultTable(findings.tallies)));
     for (const std::string& sentence : summaryOf(findings))
         fmt::print("{}\n", sentence);
     if (const std::string tests = testsText(findings); !tests.empty())
         fmt::print("\n{}", tests);
+    if (!findings.scales.all.empty())
+        fmt::print("\n{}", scalesText(findings.scales.all));
 }
 
 int analyse(int argc, char** argv) {
@@ -134,17 +140,27 @@ int analyse(int argc, char** argv) {
         throw Error("expected a study's folder, CSV files, or --counts FILE; see --help");
 
     const Findings findings = findingsOf(options);
-    const fs::path csv = options.csv.empty() ? options.out / "votes.csv" : options.csv;
+    if (findings.conduct)
+        for (const BadRow& bad : findings.conduct->bad)
+            fmt::print(stderr, "skipped: {}{}\n", bad.place.prefix(), bad.message);
+    const bool isPairs = !findings.tallies.empty();
+    const fs::path csv =
+        !options.csv.empty() ? options.csv : options.out / (isPairs ? "votes.csv" : "scales.csv");
     const fs::path report = options.out / "report.html";
     const std::string page = reportHtml(findings);
-    writeFile(csv, resultCsv(findings));
-    writeFile(options.out / "tests.csv", testsCsv(findings));
-    if (findings.people) {
-        writeFile(options.out / "people.csv", peopleCsv(findings));
-        writeFile(options.out / "times.csv", timesCsv(findings));
+    if (isPairs) {
+        writeFile(csv, resultCsv(findings));
+        writeFile(options.out / "tests.csv", testsCsv(findings));
+        if (findings.people) {
+            writeFile(options.out / "people.csv", peopleCsv(findings));
+            writeFile(options.out / "times.csv", timesCsv(findings));
+        }
+        writeFile(options.out / "results.csv", resultsCsv(findings));
+        writeFile(options.out / "results.json", resultsJson(findings));
     }
-    writeFile(options.out / "results.csv", resultsCsv(findings));
-    writeFile(options.out / "results.json", resultsJson(findings));
+    if (!isPairs || !findings.scales.all.empty())
+        writeFile(isPairs ? options.out / "scales.csv" : csv,
+                  scalesCsv(findings.scales, sourceOf(findings)));
     if (!findings.exclusions.empty())
         writeFile(options.out / "exclusions.csv", exclusionsCsv(findings));
     writeFile(report, page);

@@ -4,6 +4,8 @@
 #include "analysis/methods_text.h"
 #include "analysis/report_parts.h"
 #include "analysis/results.h"
+#include "analysis/scales/scale_table.h"
+#include "analysis/scales/scale_words.h"
 #include "analysis/starters.h"
 #include "analysis/statistics.h"
 #include "analysis/table.h"
@@ -31,11 +33,17 @@ std::string listOf(const std::vector<std::string>& sentences, const char* kind) 
 
 // First what was claimed, then what else is to know.
 std::string answer(const Findings& findings) {
+    std::string html = "<h2 id=\"answer\">The answer</h2>\n";
+    if (!findings.claims.empty())
+        html += "<ul class=\"answer claims\">\n";
+    for (const ClaimResult& claim : findings.claims)
+        html += fmt::format("<li><strong>{}</strong> {}</li>\n", escaped(answerOf(claim)),
+                            escaped(groundsOf(claim)));
+    if (!findings.claims.empty())
+        html += "</ul>\n";
     const std::vector<std::string> sentences = summaryOf(findings);
     const auto others = sentences.begin() + static_cast<std::ptrdiff_t>(findings.claims.size());
-    return "<h2 id=\"answer\">The answer</h2>\n" +
-           listOf({sentences.begin(), others}, "answer claims") +
-           listOf({others, sentences.end()}, "answer");
+    return html + listOf({others, sentences.end()}, "answer");
 }
 
 std::string figureSection(const std::vector<StudyFigure>& figures) {
@@ -74,7 +82,9 @@ Part claims(const Findings& findings) {
 
 Part conditions(const Findings& findings) {
     return {"numbers-conditions", "Each condition",
-            resultsHtml(findings.tallies, "Each condition") + std::string(tableNote)};
+            findings.tallies.empty()
+                ? ""
+                : resultsHtml(findings.tallies, "Each condition") + std::string(tableNote)};
 }
 
 Part excluded(const Findings& findings) {
@@ -99,6 +109,30 @@ Part acrossConditions(const Findings& findings) {
         tableHtml(testTable(findings), heading) +
             "<p class=\"aside\">p (Holm): corrected for the groups of conditions of which the same "
             "is asked; other p are not corrected.</p>\n"};
+}
+
+// What to know of each scale stands below them all.
+Part scales(const Findings& findings) {
+    const std::string heading = "Scales";
+    const std::vector<Scaled>& all = findings.scales.all;
+    if (all.empty())
+        return {"numbers-scales", heading, ""};
+    std::string html =
+        tableHtml(scaleTable(all), heading) +
+        "<p class=\"aside\">A scale begins at its first technique, which therefore has no "
+        "interval; p is that of the step to the next higher technique, corrected by Holm for the "
+        "steps of its scale. scales.csv has all digits.</p>\n";
+    for (const Scaled& one : all) {
+        std::string remarks;
+        for (const std::string& remark : scaleRemarks(one.result))
+            remarks += element("li", remark);
+        if (!remarks.empty())
+            html += fmt::format("<p class=\"aside\">{} ({}), {}:</p>\n<ul class=\"aside\">\n{}"
+                                "</ul>\n",
+                                escaped(one.kind->heading), escaped(one.kind->source),
+                                escaped(placeOf(one.result.group)), remarks);
+    }
+    return {"numbers-scales", heading, html};
 }
 
 constexpr std::size_t conditionsAcross = 7; // of one table: more do not fit a printed page
@@ -149,7 +183,7 @@ std::vector<Part> present(std::vector<Part> parts) {
 
 std::vector<Part> tablesOf(const Findings& findings) {
     return present({claims(findings), conditions(findings), excluded(findings),
-                    acrossConditions(findings), everyStatistic(findings)});
+                    acrossConditions(findings), scales(findings), everyStatistic(findings)});
 }
 
 std::string everyNumber(const std::vector<Part>& parts, const std::vector<StudyFigure>& figures) {
@@ -297,6 +331,8 @@ void writeBesideReport(const std::filesystem::path& folder, const std::filesyste
         drawings.push_back(figure.drawing);
     writeFigures(folder / "figures", drawings);
     const std::string path = std::filesystem::proximate(votes, folder).generic_string();
+    if (findings.tallies.empty())
+        return; // no votes to load
     writeFile(folder / "start.R", startR(path));
     writeFile(folder / "start.py", startPython(path));
 }
