@@ -33,7 +33,7 @@ struct PlannedTrial {
 std::string_view nameOf(PlannedTrial::Kind kind);
 
 // A trial that was shown. An interrupted one is not shown again, since nothing can be unseen; but
-// its answer leads a staircase nowhere.
+// its answer counts for nothing where answers decide the order.
 struct PastTrial {
     PlannedTrial trial;
     std::map<std::string, std::string> answers; // by name, as in the protocol's `answer`
@@ -44,7 +44,8 @@ struct PastTrial {
 // which this function must have led to, always give the same.
 //
 // First all of the ordering's `practice`. Then main trials: in the order of the slot's row of its
-// square (schedule.h), or as drawn for this slot, or as the staircase has it. After each catchEvery
+// square (schedule.h), or as drawn for this slot, or as the answers have it (staircase.h,
+// adaptive.h). After each catchEvery
 // of them a catch trial and after each breakEvery a break, but none after the last. Conditions for
 // practice and catch trials are no part of the rest.
 //
@@ -55,10 +56,10 @@ struct PastTrial {
 std::optional<PlannedTrial> next(const Protocol& protocol, int slot,
                                  std::span<const PastTrial> history);
 
-// All of a session whose order answers do not change; empty for a staircase.
+// All of a session whose order answers do not change; empty where they do.
 std::vector<PlannedTrial> planned(const Protocol& protocol, int slot);
 
-// How many trials there are, breaks not counted; of a staircase, at most.
+// How many trials there are, breaks not counted; where answers decide, at most.
 int longest(const Protocol& protocol);
 
 // Where the slot is in the protocol's scheme; with blocks, in that of the block listed first.
