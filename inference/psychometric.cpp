@@ -28,7 +28,7 @@ void check(const PsychometricData& data, const PsychometricModel& model) {
     if (model.lapse && !(*model.lapse >= 0 && *model.lapse <= largestLapse))
         throw Error(
             fmt::format("expected a lapse rate in [0, {}], found {}", largestLapse, *model.lapse));
-    if (model.curve == PsychometricCurve::weibull && data.level.minCoeff() < 0)
+    if (model.curve == Sigmoid::weibull && data.level.minCoeff() < 0)
         throw Error(
             fmt::format("a Weibull curve is of levels from 0 on, found {}", data.level.minCoeff()));
 }
@@ -75,8 +75,7 @@ PsychometricFit fitMerged(const PsychometricData& data, const PsychometricModel&
     fit.converged = best.reached;
     fit.logLikelihood = best.value;
     if (fit.converged) {
-        const double stretch =
-            model.curve == PsychometricCurve::weibull ? fit.parameters.threshold : 1;
+        const double stretch = model.curve == Sigmoid::weibull ? fit.parameters.threshold : 1;
         fit.thresholdError = stretch * std::sqrt(best.covariance(0, 0));
         fit.slopeError = fit.parameters.slope * std::sqrt(best.covariance(1, 1));
     }
@@ -126,9 +125,9 @@ std::optional<double> levelOf(const PsychometricModel& model, const Psychometric
     const double share = (p - model.guess) / (1 - model.guess - parameters.lapse);
     if (!(share > 0 && share < 1))
         return std::nullopt;
-    if (model.curve == PsychometricCurve::weibull)
+    if (model.curve == Sigmoid::weibull)
         return parameters.threshold * std::pow(-std::log1p(-share), 1 / parameters.slope);
-    const Link link = model.curve == PsychometricCurve::logistic ? Link::logit : Link::probit;
+    const Link link = model.curve == Sigmoid::logistic ? Link::logit : Link::probit;
     return parameters.threshold + quantile(link, share) / parameters.slope;
 }
 
@@ -154,7 +153,7 @@ Bounds profileInterval(const PsychometricData& data, const PsychometricModel& mo
     const Index coordinate = slope ? 1 : 0;
     Bounds ends{profileEnd(likelihood, top, coordinate, fall, -step),
                 profileEnd(likelihood, top, coordinate, fall, step)};
-    if (slope || model.curve == PsychometricCurve::weibull)
+    if (slope || model.curve == Sigmoid::weibull)
         for (auto* end : {&ends.low, &ends.high})
             if (*end)
                 *end = std::exp(**end);

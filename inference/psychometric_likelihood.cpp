@@ -12,11 +12,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-CurvePoint curvePoint(PsychometricCurve curve, double z) {
-    if (curve != PsychometricCurve::weibull) {
-        const Distribution at =
-            distribution(curve == PsychometricCurve::logistic ? Link::logit : Link::probit,
-                         std::clamp(z, -1e6, 1e6));
+CurvePoint curvePoint(Sigmoid curve, double z) {
+    if (curve != Sigmoid::weibull) {
+        const Distribution at = distribution(
+            curve == Sigmoid::logistic ? Link::logit : Link::probit, std::clamp(z, -1e6, 1e6));
         return {at.below, at.above, at.density};
     }
     const double rate = std::exp(std::clamp(z, -700.0, 6.5)); // exp(-exp(6.5)) = 1e-289
@@ -31,14 +30,14 @@ PsychometricLikelihood::PsychometricLikelihood(const PsychometricData& data,
     // A level of 0 of the weibull says nothing of where the curve rises.
     double lowest = std::numeric_limits<double>::max();
     for (Index i = 0; i < locations_.size(); ++i)
-        if (model.curve != PsychometricCurve::weibull || data.level[i] > 0)
+        if (model.curve != Sigmoid::weibull || data.level[i] > 0)
             lowest = std::min(lowest, locations_[i]);
     highest_ = locations_.maxCoeff();
     spread_ = std::max(highest_ - lowest, 1e-6);
 }
 
-double location(PsychometricCurve curve, double level) {
-    return curve == PsychometricCurve::weibull ? std::log(std::max(level, 1e-300)) : level;
+double location(Sigmoid curve, double level) {
+    return curve == Sigmoid::weibull ? std::log(std::max(level, 1e-300)) : level;
 }
 
 double PsychometricLikelihood::operator()(const VectorXd& x, VectorXd& gradient) const {
@@ -70,7 +69,7 @@ double PsychometricLikelihood::operator()(const VectorXd& x, VectorXd& gradient)
 }
 
 Psychometric PsychometricLikelihood::parameters(const VectorXd& x) const {
-    return {.threshold = model_.curve == PsychometricCurve::weibull ? std::exp(x[0]) : x[0],
+    return {.threshold = model_.curve == Sigmoid::weibull ? std::exp(x[0]) : x[0],
             .slope = std::exp(x[1]),
             .lapse = model_.lapse ? *model_.lapse : largestLapse * (1 - std::cos(x[2])) / 2};
 }

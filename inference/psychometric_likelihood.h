@@ -10,7 +10,7 @@ namespace obscura {
 inline constexpr double largestLapse = 0.1;
 
 // The coordinate in which a curve is shifted and stretched: the level, or its logarithm (weibull).
-double location(PsychometricCurve curve, double level);
+double location(Sigmoid curve, double level);
 
 // The likelihood in coordinates without bounds: location (of the weibull: log threshold), log
 // slope, and, where the lapse is fitted, t with lapse = largestLapse (1 - cos t) / 2.
@@ -43,6 +43,6 @@ class PsychometricLikelihood {
 struct CurvePoint {
     double below, above, density;
 };
-CurvePoint curvePoint(PsychometricCurve curve, double z);
+CurvePoint curvePoint(Sigmoid curve, double z);
 
 } // namespace obscura

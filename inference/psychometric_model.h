@@ -9,14 +9,14 @@ namespace obscura {
 // Psychometric functions: P(level) = guess + (1 - guess - lapse) F(level), F rising from 0 to 1
 // (Wichmann and Hill, Percept. Psychophys. 63 (2001) 1293). Levels of falling preference are to be
 // negated, or the other answer counted.
-enum class PsychometricCurve {
+enum class Sigmoid {
     logistic, // 1 / (1 + exp(-slope (level - threshold)))
     normal,   // Phi(slope (level - threshold))
     weibull,  // 1 - exp(-(level / threshold)^slope); levels >= 0, F(threshold) = 63.2 %
 };
 
 struct PsychometricModel {
-    PsychometricCurve curve = PsychometricCurve::logistic;
+    Sigmoid curve = Sigmoid::logistic;
     double guess = 0;                // [0, 1): 0 for preferences, 1/n for n alternatives
     std::optional<double> lapse = 0; // [0, 0.1]; absent: fitted within [0, 0.1]
 };

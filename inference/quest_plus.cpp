@@ -24,8 +24,8 @@ void checkList(const std::vector<double>& values, const char* name, double least
 
 void check(const QuestGrid& grid) {
     constexpr double most = 1e300, tiny = 1e-300;
-    const double least = grid.curve == PsychometricCurve::weibull ? tiny : -most;
-    checkList(grid.levels, "levels", grid.curve == PsychometricCurve::weibull ? 0 : -most, most);
+    const double least = grid.curve == Sigmoid::weibull ? tiny : -most;
+    checkList(grid.levels, "levels", grid.curve == Sigmoid::weibull ? 0 : -most, most);
     checkList(grid.thresholds, "thresholds", least, most);
     checkList(grid.slopes, "slopes", tiny, most);
     checkList(grid.guesses, "guesses", 0, 1);
@@ -163,7 +163,7 @@ void QuestPlus::answer(int level, bool success) {
 
 QuestEstimate QuestPlus::estimate(QuestParameter parameter, double confidence) const {
     std::vector<double> values = valuesOf(parameter);
-    if (parameter == QuestParameter::threshold && grid_.curve == PsychometricCurve::weibull)
+    if (parameter == QuestParameter::threshold && grid_.curve == Sigmoid::weibull)
         for (double& value : values)
             value = std::log10(value);
     std::vector<double> mass(values.size());

@@ -16,7 +16,7 @@ namespace obscura {
 // The values that are considered; every combination is, and all are equally likely at first.
 // Threshold, slope and curve are those of Psychometric; levels and values rise.
 struct QuestGrid {
-    PsychometricCurve curve = PsychometricCurve::logistic;
+    Sigmoid curve = Sigmoid::logistic;
     std::vector<double> levels; // of stimuli, at least one
     std::vector<double> thresholds, slopes;
     std::vector<double> guesses = {0.5}; // [0, 1)

@@ -29,36 +29,30 @@ PsychometricData answers(double guess) {
 // R 4.2.2: optim() of sum(dbinom(k, n, guess + (1 - guess - lapse) F(x), log = TRUE)), best of 36
 // starts by Nelder-Mead, then BFGS; F is plogis(b (x - a)), pnorm(b (x - a)), 1 - exp(-(x / a)^b).
 struct Row {
-    PsychometricCurve curve;
+    Sigmoid curve;
     double guess;
     bool lapses;
     double threshold, slope, lapse, logLikelihood, deviance;
 };
 const Row rows[] = {
-    {PsychometricCurve::logistic, 0, false, 2.33481712059, 0.93159207219, 0, -14.1726522548,
-     6.45329073638},
-    {PsychometricCurve::logistic, 0, true, 2.05213021728, 1.41315409463, 0.05262632073,
-     -11.5005244541, 1.10903513495},
-    {PsychometricCurve::logistic, .5, false, 2.70261237286, 0.678766611817, 0, -13.5055911547,
-     3.96893859793},
-    {PsychometricCurve::logistic, .5, true, 2.1704400202, 1.46384686655, 0.050406975976,
-     -11.952123296, 0.862002880475},
-    {PsychometricCurve::normal, 0, false, 2.43579641866, 0.48554339661, 0, -15.6594373385,
-     9.4268609036},
-    {PsychometricCurve::normal, 0, true, 2.06763560313, 0.834894262135, 0.0543870302126,
-     -11.507679392, 1.12334501066},
-    {PsychometricCurve::normal, .5, false, 2.80755502044, 0.371514561032, 0, -13.8602855872,
-     4.67832746282},
-    {PsychometricCurve::normal, .5, true, 2.18356322345, 0.865263580634, 0.0511941751042,
-     -11.9549746924, 0.867705673287},
-    {PsychometricCurve::weibull, 0, false, 2.78451966069, 1.38745134681, 0, -12.1397550599,
-     2.38749634648},
-    {PsychometricCurve::weibull, 0, true, 2.44540016943, 1.75637096824, 0.0439822900746,
-     -11.0086370744, 0.125260375473},
-    {PsychometricCurve::weibull, .5, false, 3.21041374339, 1.24632810161, 0, -12.4511568799,
-     1.86007004828},
-    {PsychometricCurve::weibull, .5, true, 2.5579098128, 1.94987051184, 0.0466038238505,
-     -11.8011832538, 0.560122796138},
+    {Sigmoid::logistic, 0, false, 2.33481712059, 0.93159207219, 0, -14.1726522548, 6.45329073638},
+    {Sigmoid::logistic, 0, true, 2.05213021728, 1.41315409463, 0.05262632073, -11.5005244541,
+     1.10903513495},
+    {Sigmoid::logistic, .5, false, 2.70261237286, 0.678766611817, 0, -13.5055911547, 3.96893859793},
+    {Sigmoid::logistic, .5, true, 2.1704400202, 1.46384686655, 0.050406975976, -11.952123296,
+     0.862002880475},
+    {Sigmoid::normal, 0, false, 2.43579641866, 0.48554339661, 0, -15.6594373385, 9.4268609036},
+    {Sigmoid::normal, 0, true, 2.06763560313, 0.834894262135, 0.0543870302126, -11.507679392,
+     1.12334501066},
+    {Sigmoid::normal, .5, false, 2.80755502044, 0.371514561032, 0, -13.8602855872, 4.67832746282},
+    {Sigmoid::normal, .5, true, 2.18356322345, 0.865263580634, 0.0511941751042, -11.9549746924,
+     0.867705673287},
+    {Sigmoid::weibull, 0, false, 2.78451966069, 1.38745134681, 0, -12.1397550599, 2.38749634648},
+    {Sigmoid::weibull, 0, true, 2.44540016943, 1.75637096824, 0.0439822900746, -11.0086370744,
+     0.125260375473},
+    {Sigmoid::weibull, .5, false, 3.21041374339, 1.24632810161, 0, -12.4511568799, 1.86007004828},
+    {Sigmoid::weibull, .5, true, 2.5579098128, 1.94987051184, 0.0466038238505, -11.8011832538,
+     0.560122796138},
 };
 
 PsychometricModel modelOf(const Row& row) {
@@ -103,9 +97,9 @@ TEST(Psychometric, ProfileIntervalsEqualR) {
         EXPECT_NEAR(bounds.high.value_or(0), slope[1], 2e-6);
     };
     expect(answers(0), {}, {1.90963167842, 2.79203472649}, {0.652134039713, 1.27478333284});
-    expect(answers(0), {.curve = PsychometricCurve::weibull, .lapse = std::nullopt},
+    expect(answers(0), {.curve = Sigmoid::weibull, .lapse = std::nullopt},
            {1.95688205225, 3.12022042265}, {1.16615924842, 2.57693476486});
-    expect(answers(.5), {.curve = PsychometricCurve::normal, .guess = .5, .lapse = 0.02},
+    expect(answers(.5), {.curve = Sigmoid::normal, .guess = .5, .lapse = 0.02},
            {1.65988615001, 3.37596574851}, {0.292620714055, 1.43713188096});
 }
 
@@ -117,7 +111,7 @@ TEST(Psychometric, LevelsInvertProbabilities) {
             EXPECT_NEAR(probability(model, at, levelOf(model, at, p).value_or(0)), p, 1e-12);
         EXPECT_FALSE(levelOf(model, at, row.guess));
         EXPECT_FALSE(levelOf(model, at, 1 - row.lapse));
-        const double middle = row.curve == PsychometricCurve::weibull ? 1 - std::exp(-1) : 0.5;
+        const double middle = row.curve == Sigmoid::weibull ? 1 - std::exp(-1) : 0.5;
         EXPECT_NEAR(probability(model, at, at.threshold),
                     row.guess + (1 - row.guess - row.lapse) * middle, 1e-12);
     }
@@ -144,8 +138,7 @@ TEST(Psychometric, StepsAndFlatDataAreSaidAndFinite) {
         {5, 5, 5, 5, 5, 5},    {9, 8, 6, 4, 2, 1},
     };
     for (const auto& successes : cases)
-        for (const PsychometricCurve curve :
-             {PsychometricCurve::logistic, PsychometricCurve::normal, PsychometricCurve::weibull})
+        for (const Sigmoid curve : {Sigmoid::logistic, Sigmoid::normal, Sigmoid::weibull})
             for (const std::optional<double> lapse :
                  {std::optional(0.0), std::optional<double>()}) {
                 const PsychometricData data{vector({1, 2, 3, 4, 5, 6}), vector(successes),
@@ -164,7 +157,7 @@ TEST(Psychometric, StepsAndFlatDataAreSaidAndFinite) {
 // is unremarkable; of answers that no curve of the kind can give it is remarkable.
 TEST(Psychometric, BootstrapAgreesWithProfile) {
     const PsychometricData data = answers(0);
-    const PsychometricModel model{.curve = PsychometricCurve::weibull};
+    const PsychometricModel model{.curve = Sigmoid::weibull};
     const PsychometricFit fit = fitPsychometric(data, model);
     const Bounds profile = profileInterval(data, model, fit, PsychometricParameter::threshold);
     const PsychometricBootstrap boot = bootstrapPsychometric(data, model, fit, 400, 7);
@@ -185,7 +178,7 @@ TEST(Psychometric, WrongInputIsNamed) {
     EXPECT_THROW(fitPsychometric(data, {.guess = 1}), Error);
     EXPECT_THROW(fitPsychometric(data, {.lapse = 0.2}), Error);
     data.level[0] = -1;
-    EXPECT_THROW(fitPsychometric(data, {.curve = PsychometricCurve::weibull}), Error);
+    EXPECT_THROW(fitPsychometric(data, {.curve = Sigmoid::weibull}), Error);
     data.level.setConstant(3);
     EXPECT_THROW(fitPsychometric(data, {}), Error);
 }
