@@ -118,7 +118,7 @@ fault batch-within experiment/adaptive.cpp \
     's|posteriorAfter\(number \* size\)|posteriorAfter(past.size())|' \
     experiment_test 'InformationOrder.*'
 fault wins-swapped experiment/adaptive.cpp \
-    's|wins\(pair\.second, pair\.first\) \+= second|wins(pair.second, pair.first) += first|' \
+    's|wins\(pair\.second, pair\.first\) \+= second|wins(pair.second, pair.first) += first + 0 * second|' \
     experiment_test 'InformationOrder.*'
 fault interrupted-teaches experiment/adaptive.cpp \
     's#past\.interrupted \|\| ##' \
