@@ -95,7 +95,7 @@ std::string data(const Findings& findings, const std::vector<Line>& lines, const
                   : std::nullopt;
         if (!verdict || verdict->differs() != different)
             continue;
-        const Interval interval = clopperPearson(tally->votes.b, tally->votes.total());
+        const Interval interval = intervalOf(*tally);
         block += fmt::format("{} {} {} {}\n", 100.0 * tally->votes.b / tally->votes.total(),
                              100 * interval.low, 100 * interval.high, y);
     }

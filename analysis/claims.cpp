@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_map>
@@ -88,18 +89,12 @@ void testPeople(const std::vector<double>& values, double centre, const char* wh
                 ClaimResult& result) {
     result.people = static_cast<std::int64_t>(values.size());
     result.estimate = average(values);
-    if (const auto t = tTest(values, centre)) {
-        result.method = fmt::format("Student's t of the people's {}, t({:g})", what, *t->df);
-        result.test = t;
-        result.interval = tInterval(values);
-        return;
-    }
-    Votes sides;
-    for (const double value : values)
-        if (value != centre)
-            ++(value > centre ? sides.b : sides.a);
-    result.method = fmt::format("sign test of the people's {}, which are all the same", what);
-    result.test = Test{{}, {}, sides.total() > 0 ? exactP(sides) : 1};
+    result.test = centreTest(values, centre);
+    result.interval = tInterval(values);
+    result.method =
+        result.test->df
+            ? fmt::format("Student's t of the people's {}, t({:g})", what, *result.test->df)
+            : fmt::format("sign test of the people's {}, which are all the same", what);
 }
 
 void testSuperior(const ClaimVotes& votes, ClaimResult& result) {
@@ -312,10 +307,8 @@ ClaimResult testClaim(const Claim& claim, const std::vector<Tally>& tallies,
     return result;
 }
 
-// Where no difference is even.
-double evenOf(const ClaimResult& result) {
-    return result.claim.kind == Kind::superior || result.method.starts_with("McNemar") ? 0.5 : 0;
-}
+// The estimate where there is no effect.
+double evenOf(const ClaimResult& result) { return result.measure.starts_with("share") ? 0.5 : 0; }
 
 void decide(ClaimResult& result) {
     if (result.outcome != Outcome::undecided || !(result.holm < significance))
@@ -346,19 +339,32 @@ std::string pText(double p) {
     return p < 0.001 ? "p < .001" : fmt::format("p = {}", fmt::format("{:.3f}", p).substr(p < 1));
 }
 
+// Percentage points, with their sign.
+std::string points(double difference) {
+    return (difference < 0 ? "−" : "+") + percent(std::abs(difference));
+}
+
 // What was found, without the test.
 std::string foundOf(const ClaimResult& result) {
-    const std::string limits =
-        result.interval ? fmt::format(" ({} % interval {} to {} %)", result.confidence,
-                                      percent(result.interval->low), percent(result.interval->high))
-                        : "";
     if (!result.estimate || result.method.starts_with("trend"))
         return {};
-    if (result.claim.kind == Kind::equivalent)
-        return fmt::format("The {} is {} %{}; claimed were {} to {} %. ", result.measure,
-                           percent(*result.estimate), limits, percent(0.5 - result.claim.margin),
-                           percent(0.5 + result.claim.margin));
-    return fmt::format("The {} is {} %{}. ", result.measure, percent(*result.estimate), limits);
+    const bool rise = result.measure.starts_with("rise");
+    const auto text = rise ? points : percent;
+    const std::string limits =
+        result.interval ? fmt::format(" ({} % interval {} to {})", result.confidence,
+                                      text(result.interval->low), text(result.interval->high))
+                        : "";
+    if (rise)
+        return fmt::format("From the lowest score to the highest, the share of {} changes by {} "
+                           "points{}. ",
+                           result.claim.favours, points(*result.estimate), limits);
+    const std::string claimed =
+        result.claim.kind == Kind::equivalent
+            ? fmt::format("; claimed were {} to {}", percent(0.5 - result.claim.margin),
+                          percent(0.5 + result.claim.margin))
+            : "";
+    return fmt::format("The {} is {} %{}{}. ", result.measure, percent(*result.estimate), limits,
+                       claimed);
 }
 
 std::string meaningOf(const ClaimResult& result) {

@@ -2,11 +2,13 @@
 
 #include "analysis/verdict.h"
 
+#include "inference/paired.h"
 #include "inference/tails.h"
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 
 namespace obscura {
 
@@ -36,11 +38,6 @@ std::vector<Tally> select(const Findings& findings, Wanted wanted) {
 
 std::vector<Tally> tested(const Findings& findings) {
     return select(findings, [](const Tally&, const Verdict&) { return true; });
-}
-
-// The interval that belongs to the exact test.
-Interval intervalOf(const Tally& tally) {
-    return clopperPearson(tally.votes.b, tally.votes.total());
 }
 
 std::vector<Tally> undecided(const Findings& findings) {
@@ -93,7 +90,7 @@ std::string differences(const Findings& findings) {
 // What only looks like a difference, because there are several tests.
 std::string uncorrected(const Findings& findings) {
     const auto lost = select(findings, [](const Tally& tally, const Verdict& verdict) {
-        return !verdict.differs() && !splitsEvenly(tally.votes);
+        return !verdict.differs() && decidingP(tally) < significance;
     });
     if (lost.empty())
         return {};
@@ -206,8 +203,9 @@ std::string notEquivalence(const Findings& findings) {
 std::string repeatedVotes(const Findings& findings) {
     if (!findings.conduct || findings.conduct->mostVotes < 2)
         return {};
-    return fmt::format("Caution: some participants voted up to {} times on one condition; the "
-                       "tests take every vote for another person's, so their p are too small.",
+    return fmt::format("Some participants voted up to {} times on one condition: there, verdicts "
+                       "and intervals are of people's shares (Student's t), and the tests of votes "
+                       "beside them take every vote for another person's.",
                        findings.conduct->mostVotes);
 }
 
@@ -291,10 +289,42 @@ void markFaults(std::vector<Tally>& tallies, const Conduct& conduct) {
     }
 }
 
-std::vector<Tally> judgeable(std::vector<Tally> tallies, const Conduct& conduct,
-                             const std::vector<Claim>& claims) {
+Tally::People judged(const std::vector<double>& shares) {
+    const double share = shares.front(); // everybody's, where there is no interval
+    const Interval interval = tInterval(shares).value_or(Interval{share, share});
+    return {centreTest(shares, 0.5).p, {std::max(interval.low, 0.0), std::min(interval.high, 1.0)}};
+}
+
+// Where anybody voted several times on a condition, its votes are judged by people's shares.
+void judgeByPeople(std::vector<Tally>& tallies, const std::vector<Answer>& answers) {
+    std::vector<std::tuple<std::uint32_t, std::uint64_t, bool>> votes; // condition, person, b
+    votes.reserve(answers.size());
+    for (const auto& [row, file, line] : answers)
+        votes.emplace_back(row.conditionId.number(), row.person(), row.choseB);
+    std::sort(votes.begin(), votes.end());
+    std::map<std::uint32_t, std::vector<double>> shares; // of the people, by condition
+    for (auto one = votes.begin(); one != votes.end();) {
+        const auto [condition, person, ignored] = *one;
+        Votes given;
+        for (; one != votes.end() && std::get<0>(*one) == condition && std::get<1>(*one) == person;
+             ++one)
+            ++(std::get<2>(*one) ? given.b : given.a);
+        shares[condition].push_back(static_cast<double>(given.b) /
+                                    static_cast<double>(given.total()));
+    }
+    for (Tally& tally : tallies) {
+        const std::vector<double>& people = shares[Symbol(tally.condition).number()];
+        if (static_cast<std::int64_t>(people.size()) < tally.votes.total())
+            tally.people = judged(people);
+    }
+}
+
+std::vector<Tally> judgeable(std::vector<Tally> tallies, const std::vector<Answer>& answers,
+                             const Conduct& conduct, const std::vector<Claim>& claims) {
     assignFamilies(tallies, claims);
     markFaults(tallies, conduct);
+    if (conduct.mostVotes > 1)
+        judgeByPeople(tallies, answers);
     return tallies;
 }
 
@@ -309,8 +339,8 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     const auto& order = answers.declared.order;
     findings.title = manifest ? manifest->title : answers.counted.front().row.studyId;
     findings.conduct = conductOf(answers);
-    findings.tallies =
-        judgeable(tallyVotes(answers.counted, manifest, order), *findings.conduct, declared);
+    findings.tallies = judgeable(tallyVotes(answers.counted, manifest, order), answers.counted,
+                                 *findings.conduct, declared);
     findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
     findings.claims = testClaims(declared, findings.tallies, &answers.counted);
     findings.exclusions = answers.excluded.reasons;
@@ -320,7 +350,7 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     all.counted.insert(all.counted.end(), answers.excluded.rows.begin(),
                        answers.excluded.rows.end());
     std::vector<Tally> tallies =
-        judgeable(tallyVotes(all.counted, manifest, order), conductOf(all), declared);
+        judgeable(tallyVotes(all.counted, manifest, order), all.counted, conductOf(all), declared);
     findings.whole = {tallies, testClaims(declared, tallies, &all.counted)};
     return findings;
 }

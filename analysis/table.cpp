@@ -4,6 +4,7 @@
 #include "analysis/verdict.h"
 #include "base/csv.h"
 
+#include "inference/tails.h"
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -26,13 +27,25 @@ std::string signedText(double value, int decimals) {
 
 constexpr const char* dash = "–";
 
+double shareOf(Votes votes) {
+    return static_cast<double>(votes.b) / static_cast<double>(votes.total());
+}
+
+// Of unanimous votes, which have no finite estimate, the one-sided bound: at least so far.
+std::string jodText(Votes votes) {
+    if (const auto value = jod(votes))
+        return signedText(*value, 2);
+    const JodLimits bound = jodLimits(clopperPearson(votes.b, votes.total()));
+    return bound.low ? "≥ " + signedText(*bound.low, 2) : "≤ " + signedText(*bound.high, 2);
+}
+
 // A column: what it says of the pair, or the statistic that it shows.
 struct Field {
     std::string_view name;
     bool number;
     std::string (*label)(const Tally&);
-    std::string (*figure)(const Frequencies&) = nullptr;
-    double Verdict::*adjusted = nullptr; // or its p, adjusted
+    std::string (*figure)(const Tally&) = nullptr; // of votes
+    double Verdict::*adjusted = nullptr;           // or its p, adjusted
 };
 
 std::string cellOf(const Field& field, const Tally& tally, const std::optional<Verdict>& verdict) {
@@ -40,8 +53,7 @@ std::string cellOf(const Field& field, const Tally& tally, const std::optional<V
         return field.label(tally);
     if (!verdict)
         return dash;
-    return field.adjusted ? pText(*verdict.*field.adjusted)
-                          : field.figure(*frequencies(tally.votes));
+    return field.adjusted ? pText(*verdict.*field.adjusted) : field.figure(tally);
 }
 
 template <auto field>
@@ -53,7 +65,6 @@ std::string votes(const Tally& tally) {
     return fmt::format("{}", tally.votes.*member);
 }
 using T = Tally;
-using F = Frequencies;
 const Field printed[] = {
     {"Level", false, text<&T::level>},
     {"Scene", false, text<&T::scene>},
@@ -62,16 +73,17 @@ const Field printed[] = {
     {"Hyp.", false, text<&T::hypothesis>},
     {"Votes a : b", true, [](const T& t) { return fmt::format("{} : {}", t.votes.a, t.votes.b); }},
     {"b share (95 %)", true, nullptr,
-     [](const F& f) {
-         return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * f.share, 100 * f.exact.low,
-                            100 * f.exact.high);
+     [](const T& t) {
+         const auto [low, high] = intervalOf(t);
+         return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * shareOf(t.votes), 100 * low,
+                            100 * high);
      }},
-    {"χ²", true, nullptr, [](const F& f) { return fmt::format("{:.3f}", f.chiSquare); }},
-    {"p (χ²)", true, nullptr, [](const F& f) { return pText(f.chiSquareP); }},
-    {"p (exact)", true, nullptr, [](const F& f) { return pText(f.exactP); }},
+    {"χ²", true, nullptr, [](const T& t) { return fmt::format("{:.3f}", chiSquare(t.votes)); }},
+    {"p (χ²)", true, nullptr, [](const T& t) { return pText(chiSquareP(chiSquare(t.votes))); }},
+    {"p (exact)", true, nullptr, [](const T& t) { return pText(exactP(t.votes)); }},
     {"p (Holm)", true, nullptr, nullptr, &Verdict::holm},
-    {"g", true, nullptr, [](const F& f) { return signedText(f.g, 3); }},
-    {"JOD", true, nullptr, [](const F& f) { return f.jod ? signedText(*f.jod, 2) : dash; }},
+    {"g", true, nullptr, [](const T& t) { return signedText(cohenG(t.votes), 3); }},
+    {"JOD", true, nullptr, [](const T& t) { return jodText(t.votes); }},
 };
 
 const Field stored[] = {

@@ -12,6 +12,13 @@ namespace {
 
 using Outcome = Verdict::Outcome;
 
+// Of people, whose interval at 95 % asks for more than two one-sided tests at .05 do.
+bool isWithin(const Tally& tally, double margin) {
+    if (tally.people)
+        return tally.people->share.low > 0.5 - margin && tally.people->share.high < 0.5 + margin;
+    return equivalenceP(tally.votes, margin) < significance;
+}
+
 void decide(const Tally& tally, Verdict& verdict) {
     const double margin = tally.margin > 0 ? tally.margin : undeclaredMargin;
     if (!tally.fault.empty()) {
@@ -22,7 +29,7 @@ void decide(const Tally& tally, Verdict& verdict) {
         verdict.why = "too few votes: even unanimous ones could be chance";
     } else if (verdict.holm < significance) {
         verdict.outcome = Outcome::differs;
-    } else if (equivalenceP(tally.votes, margin) < significance) {
+    } else if (isWithin(tally, margin)) {
         verdict.outcome = Outcome::equivalent;
         verdict.margin = margin;
     }
@@ -36,6 +43,14 @@ std::string_view nameOf(Outcome outcome) {
     return names[static_cast<std::size_t>(outcome)];
 }
 
+double decidingP(const Tally& tally) {
+    return tally.people ? tally.people->p : exactP(tally.votes);
+}
+
+Interval intervalOf(const Tally& tally) {
+    return tally.people ? tally.people->share : clopperPearson(tally.votes.b, tally.votes.total());
+}
+
 std::vector<std::optional<Verdict>> verdictsOf(const std::vector<Tally>& tallies) {
     std::map<std::string, std::vector<std::size_t>> families;
     for (std::size_t i = 0; i < tallies.size(); ++i)
@@ -45,7 +60,7 @@ std::vector<std::optional<Verdict>> verdictsOf(const std::vector<Tally>& tallies
     for (const auto& [family, members] : families) {
         std::vector<double> p;
         for (const std::size_t member : members)
-            p.push_back(exactP(tallies[member].votes));
+            p.push_back(decidingP(tallies[member]));
         const std::vector<double> adjusted = holm(p), discoveries = benjaminiHochberg(p);
         for (std::size_t i = 0; i < members.size(); ++i) {
             Verdict verdict{adjusted[i], discoveries[i]};

@@ -32,7 +32,12 @@ struct Verdict {
 };
 std::string_view nameOf(Verdict::Outcome outcome);
 
-// Of each in turn; absent without votes. Adjusted p are those of exactP, within each family.
+// Of at least one vote: the p that decides, exactP or that of the people, and the interval of the
+// share that belongs to it, Clopper and Pearson's or theirs.
+double decidingP(const Tally& tally);
+Interval intervalOf(const Tally& tally);
+
+// Of each in turn; absent without votes. Adjusted are deciding p, within each family.
 std::vector<std::optional<Verdict>> verdictsOf(const std::vector<Tally>& tallies);
 
 } // namespace obscura

@@ -6,6 +6,7 @@
 #include "inference/counts.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,14 @@ struct Tally {
     // The conditions that are corrected together have the same; at first the hypothesis.
     std::string family = hypothesis;
     std::string fault = {}; // why its votes cannot be believed, whatever they are; "" for none
-    double margin = 0;      // declared: within 1/2 -+ that, a split is as good as even; 0: none
+    // Where people voted several times on it, so that their votes depend on each other: the test of
+    // their shares against 1/2 (centreTest), and the interval of the mean share.
+    struct People {
+        double p = 1;
+        Interval share;
+    };
+    std::optional<People> people = {};
+    double margin = 0; // declared: within 1/2 -+ that, a split is as good as even; 0: none
 };
 
 // One tally per condition, in the order of the stimuli's manifest (then every condition has one,

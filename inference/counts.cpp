@@ -133,20 +133,4 @@ double probabilityOfMajority(Votes votes, double prior) {
                                static_cast<double>(votes.a) + prior, 0.5);
 }
 
-std::optional<Frequencies> frequencies(Votes votes) {
-    if (votes.total() == 0)
-        return std::nullopt;
-    const double statistic = chiSquare(votes);
-    return Frequencies{.share = shareOfB(votes),
-                       .wilson = wilson(votes.b, votes.total()),
-                       .exact = clopperPearson(votes.b, votes.total()),
-                       .chiSquare = statistic,
-                       .chiSquareP = chiSquareP(statistic),
-                       .exactP = exactP(votes),
-                       .g = cohenG(votes),
-                       .h = cohenH(votes),
-                       .w = cohenW(votes),
-                       .jod = jod(votes)};
-}
-
 } // namespace obscura

@@ -16,9 +16,8 @@ struct Votes {
     std::int64_t total() const { return a + b; }
 };
 
-// The functions below need at least one vote; frequencies() is the one to call for any counts.
-// requireVotes() throws their Error for none, and for negative ones. None takes time that grows
-// with the votes.
+// The functions below need at least one vote. requireVotes() throws their Error for none, and for
+// negative ones. None takes time that grows with the votes.
 void requireVotes(Votes votes);
 
 // Pearson 1900, against (N/2, N/2): (a - b)^2 / N, at one degree of freedom (chiSquareP of
@@ -80,16 +79,5 @@ double logBayesFactor(Votes votes, double prior = 1);
 double ropeProbability(Votes votes, double margin, double prior = 1);
 // The posterior probability under H1 that the share of b is above 1/2.
 double probabilityOfMajority(Votes votes, double prior = 1);
-
-struct Frequencies {
-    double share = 0;       // of b
-    Interval wilson, exact; // Clopper and Pearson's
-    double chiSquare = 0, chiSquareP = 1, exactP = 1;
-    double g = 0, h = 0, w = 0;
-    std::optional<double> jod;
-};
-
-// All of the above; absent without votes.
-std::optional<Frequencies> frequencies(Votes votes);
 
 } // namespace obscura

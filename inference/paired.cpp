@@ -216,6 +216,16 @@ std::optional<Test> tTest(std::span<const double> values, double centre) {
     return Test{t, df, studentP(t, df)};
 }
 
+Test centreTest(std::span<const double> values, double centre) {
+    if (const auto t = tTest(values, centre))
+        return *t;
+    Votes sides;
+    for (const double value : values)
+        if (value != centre)
+            ++(value > centre ? sides.b : sides.a);
+    return {{}, {}, sides.total() > 0 ? exactP(sides) : 1};
+}
+
 std::optional<Interval> tInterval(std::span<const double> values, double confidence) {
     const auto estimate = meanOf(values, 0);
     if (!estimate)

@@ -88,6 +88,9 @@ std::optional<Test> tTest(std::span<const double> values, double centre);
 // The mean and its interval that excludes the centre where tTest rejects it (R's t.test);
 // 0 < confidence < 1. Absent where that is, for the centre 0 of values that are not all the same.
 std::optional<Interval> tInterval(std::span<const double> values, double confidence = 0.95);
+// The same, and where all are alike, for which there is no t, the sign test (without a statistic):
+// always a test, of at least one value.
+Test centreTest(std::span<const double> values, double centre);
 // Wilcoxon's signed ranks: the normal approximation with corrections for ties and continuity (R's
 // wilcox.test(mu, exact = FALSE)); differences of 0 are left out. The statistic is V, the sum of
 // the ranks above. Absent where nobody differs from the centre.

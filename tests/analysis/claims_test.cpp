@@ -1,4 +1,6 @@
 #include "analysis/claims.h"
+#include "analysis/findings.h"
+#include "analysis/table.h"
 #include "analysis/verdict.h"
 #include "tests/analysis/sample_study.h"
 
@@ -203,6 +205,29 @@ TEST(Families, AreThoseOfTheClaimsAndTheRestIsExploratory) {
     EXPECT_EQ(study.tallies[1].family, "Even");
     EXPECT_EQ(study.tallies[1].margin, 0.2);
     EXPECT_EQ(study.tallies[2].family, "");
+}
+
+// Ten people twice each: as votes 16 of 20 (p = .0118), as people 6 shares of 1 and 4 of 1/2.
+// R 4.2.2: t.test(c(rep(1, 6), rep(.5, 4)), mu = .5)
+TEST(Findings, JudgeRepeatedVotesByPeople) {
+    Answers answers;
+    answers.files = 1;
+    for (int person = 1; person <= 10; ++person)
+        for (int repeat = 1; repeat <= 2; ++repeat) {
+            Response row = sampleResponse(person, "c1", person <= 6 || repeat == 1);
+            row.pairsReversed = repeat == 2;
+            row.firstIs = repeat == 2 ? "b" : "a";
+            row.repeatIndex = repeat;
+            answers.counted.push_back({Vote(row), Symbol("x.csv"), 2});
+        }
+    const Findings findings = findingsOf(answers, std::nullopt);
+    const Tally& tally = findings.tallies[0];
+    ASSERT_TRUE(tally.people);
+    EXPECT_NEAR(decidingP(tally), 0.005121072764, 1e-11);
+    EXPECT_NEAR(verdictsOf(findings.tallies)[0]->holm, 0.005121072764, 1e-11);
+    EXPECT_NEAR(intervalOf(tally).low, 0.6152956411, 1e-9);
+    EXPECT_THAT(resultTable(findings.tallies).rows[0], Contains("80 % (62–98)"));
+    EXPECT_THAT(summaryOf(findings), Contains(HasSubstr("people's shares (Student's t)")));
 }
 
 } // namespace

@@ -117,14 +117,14 @@ TEST(Table, AlignsColumnsByCharactersNotBytes) {
               "    –  x\n");
 }
 
-TEST(Table, ShowsAbsentFiguresAsADash) {
+TEST(Table, ShowsAbsentFiguresAsADashAndUnanimityAsABound) {
     Tally none, unanimous;
     unanimous.votes = {0, 9};
     const Table table = resultTable({none, unanimous});
     EXPECT_THAT(table.rows[0],
                 ElementsAre("", "", "", "", "", "0 : 0", "–", "–", "–", "–", "–", "–", "–"));
     EXPECT_EQ(table.rows[1][11], "+0.500");
-    EXPECT_EQ(table.rows[1][12], "–");
+    EXPECT_EQ(table.rows[1][12], "≥ +0.63");
 }
 
 TEST(Table, HasThesisTable4InItsCsv) {

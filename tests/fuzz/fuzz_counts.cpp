@@ -1,4 +1,5 @@
 // Published counts of votes, and the statistics of what is read.
+#include "analysis/statistics.h"
 #include "analysis/votes.h"
 #include "tests/fuzz/fuzz.h"
 
@@ -8,7 +9,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const FuzzFile file({reinterpret_cast<const char*>(data), size});
     readsOrRefuses([&] {
         for (const Tally& tally : readCounts(file.path()))
-            frequencies(tally.votes);
+            if (tally.votes.total() > 0)
+                for (const CountStatistic& statistic : countStatistics())
+                    statistic.of(tally.votes);
     });
     return 0;
 }

@@ -87,79 +87,52 @@ class Thesis : public testing::TestWithParam<Golden> {};
 
 TEST_P(Thesis, AgreesWithR) {
     const Golden& golden = GetParam();
-    const auto found = frequencies(golden.votes);
-    ASSERT_TRUE(found);
-    EXPECT_NEAR(found->chiSquare, golden.chiSquare, 1e-9);
-    EXPECT_NEAR(found->chiSquareP, golden.chiSquareP, 1e-9);
-    EXPECT_NEAR(found->exactP, golden.exactP, 1e-9);
-    EXPECT_NEAR(found->wilson.low, golden.low, 1e-9);
-    EXPECT_NEAR(found->wilson.high, golden.high, 1e-9);
-    EXPECT_NEAR(found->g, golden.g, 1e-9);
-    EXPECT_NEAR(found->h, golden.h, 1e-9);
-    EXPECT_NEAR(found->w, golden.w, 1e-9);
-    ASSERT_TRUE(found->jod);
-    EXPECT_NEAR(*found->jod, golden.jod, 1e-9);
+    const Votes votes = golden.votes;
+    const Interval share = wilson(votes.b, votes.total());
+    EXPECT_NEAR(chiSquare(votes), golden.chiSquare, 1e-9);
+    EXPECT_NEAR(chiSquareP(chiSquare(votes)), golden.chiSquareP, 1e-9);
+    EXPECT_NEAR(exactP(votes), golden.exactP, 1e-9);
+    EXPECT_NEAR(share.low, golden.low, 1e-9);
+    EXPECT_NEAR(share.high, golden.high, 1e-9);
+    EXPECT_NEAR(cohenG(votes), golden.g, 1e-9);
+    EXPECT_NEAR(cohenH(votes), golden.h, 1e-9);
+    EXPECT_NEAR(cohenW(votes), golden.w, 1e-9);
+    ASSERT_TRUE(jod(votes));
+    EXPECT_NEAR(*jod(votes), golden.jod, 1e-9);
 }
 
-INSTANTIATE_TEST_SUITE_P(Frequencies, Thesis, testing::ValuesIn(goldens), [](const auto& golden) {
+INSTANTIATE_TEST_SUITE_P(Counts, Thesis, testing::ValuesIn(goldens), [](const auto& golden) {
     return fmt::format("condition{}", golden.param.condition);
 });
 
-// The same against the file that R wrote, where the project's shared folder is at hand.
-TEST(Frequencies, AgreeWithTheSharedGoldenFile) {
-    const std::filesystem::path file =
-        std::filesystem::path(OBSCURA_SOURCE) / "../shared/golden/golden_values.csv";
-    if (!std::filesystem::exists(file))
-        GTEST_SKIP() << "NOT COMPARED with " << file << ": no such file here";
-    std::map<std::string, CsvRecord> rows;
-    for (const CsvRecord& record : splitCsv(readFile(file)))
-        rows[record.cells.at(0)] = record;
-    const std::map<std::string, double (*)(const Frequencies&)> keys = {
-        {"chisq", [](const Frequencies& f) { return f.chiSquare; }},
-        {"chisq_p", [](const Frequencies& f) { return f.chiSquareP; }},
-        {"exact_p", [](const Frequencies& f) { return f.exactP; }},
-        {"wilson_lo", [](const Frequencies& f) { return f.wilson.low; }},
-        {"wilson_hi", [](const Frequencies& f) { return f.wilson.high; }},
-        {"cohen_g", [](const Frequencies& f) { return f.g; }},
-        {"cohen_h", [](const Frequencies& f) { return f.h; }},
-        {"cohen_w", [](const Frequencies& f) { return f.w; }},
-        {"jod", [](const Frequencies& f) { return f.jod.value(); }}};
-    for (const auto& [key, value] : keys)
-        for (const Golden& golden : goldens) {
-            const auto& cells = rows.at(fmt::format("thesis.{}[{}]", key, golden.condition)).cells;
-            EXPECT_NEAR(value(*frequencies(golden.votes)), std::stod(cells.at(1)),
-                        std::stod(cells.at(2)))
-                << key << golden.condition;
-        }
+TEST(Counts, HaveNoFiniteJodWhenVotesAreUnanimous) {
+    EXPECT_FALSE(jod({0, 5}));
+    EXPECT_FALSE(jod({5, 0}));
+    EXPECT_NEAR(exactP({0, 5}), 2.0 / 32, 1e-15);
 }
 
-TEST(Frequencies, AreAbsentWithoutVotes) { EXPECT_FALSE(frequencies({0, 0})); }
-
-TEST(Frequencies, HaveNoFiniteJodWhenVotesAreUnanimous) {
-    EXPECT_FALSE(frequencies({0, 5})->jod);
-    EXPECT_FALSE(frequencies({5, 0})->jod);
-    EXPECT_NEAR(frequencies({0, 5})->exactP, 2.0 / 32, 1e-15);
-}
-
-TEST(Frequencies, AreFiniteAndInRangeForAllSmallCounts) {
+TEST(Counts, GiveFiniteValuesInRangeForAllSmallCounts) {
     for (int a = 0; a <= 40; ++a)
         for (int b = a == 0 ? 1 : 0; b <= 40; ++b) {
-            const Frequencies f = *frequencies({a, b});
-            EXPECT_TRUE(f.chiSquareP >= 0 && f.chiSquareP <= 1) << a << ' ' << b;
-            EXPECT_TRUE(f.exactP > 0 && f.exactP <= 1) << a << ' ' << b;
-            EXPECT_TRUE(0 <= f.wilson.low && f.wilson.low <= f.share) << a << ' ' << b;
-            EXPECT_TRUE(f.share <= f.wilson.high && f.wilson.high <= 1) << a << ' ' << b;
-            EXPECT_TRUE(std::isfinite(f.g) && std::isfinite(f.h) && std::isfinite(f.w));
-            EXPECT_TRUE(!f.jod || std::isfinite(*f.jod));
+            const Votes v{a, b};
+            const Interval score = wilson(b, v.total());
+            const double share = static_cast<double>(b) / (a + b), p = chiSquareP(chiSquare(v));
+            EXPECT_TRUE(p >= 0 && p <= 1) << a << ' ' << b;
+            EXPECT_TRUE(exactP(v) > 0 && exactP(v) <= 1) << a << ' ' << b;
+            EXPECT_TRUE(0 <= score.low && score.low <= share) << a << ' ' << b;
+            EXPECT_TRUE(share <= score.high && score.high <= 1) << a << ' ' << b;
+            EXPECT_TRUE(std::isfinite(cohenG(v)) && std::isfinite(cohenH(v)) &&
+                        std::isfinite(cohenW(v)));
+            EXPECT_TRUE(!jod(v) || std::isfinite(*jod(v)));
         }
 }
 
-TEST(Frequencies, TurnOverWithTheVotes) {
-    const Frequencies f = *frequencies({11, 25}), turned = *frequencies({25, 11});
-    EXPECT_DOUBLE_EQ(f.exactP, turned.exactP);
-    EXPECT_DOUBLE_EQ(f.chiSquare, turned.chiSquare);
-    EXPECT_NEAR(f.wilson.low, 1 - turned.wilson.high, 1e-15);
-    EXPECT_NEAR(*f.jod, -*turned.jod, 1e-14);
+TEST(Counts, TurnOverWithTheVotes) {
+    const Votes votes{11, 25}, turned{25, 11};
+    EXPECT_DOUBLE_EQ(exactP(votes), exactP(turned));
+    EXPECT_DOUBLE_EQ(chiSquare(votes), chiSquare(turned));
+    EXPECT_NEAR(wilson(25, 36).low, 1 - wilson(11, 36).high, 1e-15);
+    EXPECT_NEAR(*jod(votes), -*jod(turned), 1e-14);
 }
 
 double probabilityOfVotes(int b, int n, double share) {
@@ -177,12 +150,12 @@ double size(int n, P p) {
     return total;
 }
 
-TEST(Frequencies, TestsHaveTheirKnownSizesAtN36) {
+TEST(Counts, TestsHaveTheirKnownSizesAtN36) {
     EXPECT_NEAR(size(36, exactP), 0.0288, 5e-5);
     EXPECT_NEAR(size(36, [](Votes votes) { return chiSquareP(chiSquare(votes)); }), 0.0652, 5e-5);
 }
 
-TEST(Frequencies, ExactTestNeverRejectsTooOften) {
+TEST(Counts, ExactTestNeverRejectsTooOften) {
     for (int n = 1; n <= 120; ++n)
         EXPECT_LE(size(n, exactP), 0.05) << n;
 }
@@ -219,7 +192,7 @@ TEST(Wilson, CoversTheTrueShareAboutAsOftenAsItSays) {
     EXPECT_NEAR(mean, 0.95, 0.005);
 }
 
-TEST(FrequenciesTest, CountsBeyond32BitsAreRight) {
+TEST(Counts, CountsBeyond32BitsAreRight) {
     const Votes votes{2'000'000'000, 2'000'000'000};
     EXPECT_EQ(votes.total(), 4'000'000'000);
     EXPECT_EQ(chiSquare(votes), 0);
