@@ -1,6 +1,7 @@
 #pragma once
 
-#include "experiment/selection.h"
+#include "experiment/past_trial.h"
+#include "protocols/reader/protocol.h"
 
 #include <optional>
 #include <span>
