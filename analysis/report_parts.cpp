@@ -31,7 +31,6 @@ figcaption b { color: var(--ink); }
 .stamp { background: #B33A00; color: white; font-size: 1.15rem; font-weight: bold;
          padding: .6rem 1rem; margin: 1rem 0; }
 .answer li { margin: .35rem 0; }
-.claims { font-weight: 600; }
 .answer, .paste { font-size: 1.06rem; max-width: 48rem; }
 .paste { background: var(--panel); padding: .3rem 1rem; font-size: 1rem; }
 nav > ul { columns: 17rem 2; max-width: 48rem; }

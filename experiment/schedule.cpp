@@ -88,6 +88,8 @@ int rowsOf(OrderScheme scheme, int conditions) {
     case OrderScheme::shuffle:
     case OrderScheme::listed:
     case OrderScheme::staircase:
+    case OrderScheme::quest:
+    case OrderScheme::information:
         break;
     }
     return 1;
@@ -95,7 +97,8 @@ int rowsOf(OrderScheme scheme, int conditions) {
 
 LatinSquare squareOf(OrderScheme scheme, int conditions, std::uint64_t seed, int square,
                      int repeat) {
-    assert(scheme != OrderScheme::shuffle && scheme != OrderScheme::staircase);
+    assert(scheme == OrderScheme::thesis || scheme == OrderScheme::latin ||
+           scheme == OrderScheme::williams || scheme == OrderScheme::listed);
     if (scheme == OrderScheme::listed)
         return {counted(conditions)};
     const bool williams = scheme == OrderScheme::williams;

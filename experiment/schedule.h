@@ -47,7 +47,7 @@ int rowsOf(OrderScheme scheme, int conditions);
 // The square by which the slots of `square` see their conditions for the `repeat`th time (both from
 // 1). A repeat has a square of its own, in which no row begins with the condition that the same row
 // ended with before (unless there is only one). Of the scheme `listed`, always the one row. Not for
-// shuffles and staircases, whose orders are drawn trial by trial.
+// shuffles, whose orders are drawn, nor for schemes that go by the answers.
 LatinSquare squareOf(OrderScheme scheme, int conditions, std::uint64_t seed, int square,
                      int repeat);
 

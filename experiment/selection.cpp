@@ -1,6 +1,7 @@
 #include "experiment/selection.h"
 
 #include "base/random.h"
+#include "experiment/adaptive.h"
 #include "experiment/staircase.h"
 
 #include <fmt/format.h>
@@ -224,34 +225,52 @@ PlannedTrial catchTrial(const Protocol& protocol, int slot, int index) {
     return trial;
 }
 
-// Roles are drawn for a group of slots, in each of which they are others: nobody can foresee them,
-// and over the group each is equally often at each place.
-std::optional<PlannedTrial> staircaseTrial(const Protocol& protocol, int slot,
-                                           std::span<const PastTrial> history) {
-    const auto ladder = mainConditions(protocol);
+std::optional<int> staircaseCondition(const Protocol& protocol, std::span<const int> ladder,
+                                      std::span<const PastTrial> past) {
     std::vector<Step> steps;
-    int repeat = 1;
-    for (const PastTrial& past : history)
-        if (past.trial.kind == Kind::main) {
-            const auto answer = past.answers.find(protocol.ordering.staircase.answer);
-            const std::string& correct = conditionOf(protocol, past.trial.condition).correct;
-            steps.push_back(past.interrupted ? Step::none
-                            : answer != past.answers.end() && answer->second == correct
-                                ? Step::right
-                                : Step::wrong);
-        }
+    for (const PastTrial& one : past) {
+        const auto answer = one.answers.find(protocol.ordering.staircase.answer);
+        const std::string& correct = conditionOf(protocol, one.trial.condition).correct;
+        steps.push_back(one.interrupted                                            ? Step::none
+                        : answer != one.answers.end() && answer->second == correct ? Step::right
+                                                                                   : Step::wrong);
+    }
     const auto level =
         nextLevel(protocol.ordering.staircase, static_cast<int>(ladder.size()), steps);
-    if (!level)
+    return level ? std::optional(ladder[static_cast<std::size_t>(*level)]) : std::nullopt;
+}
+
+std::optional<int> nextCondition(const Protocol& protocol, int slot,
+                                 std::span<const PastTrial> past) {
+    const std::vector<int> conditions = mainConditions(protocol);
+    switch (protocol.ordering.scheme) {
+    case OrderScheme::quest:
+        return questCondition(protocol, conditions, past);
+    case OrderScheme::information:
+        return informationCondition(protocol, slot, conditions, past);
+    default:
+        return staircaseCondition(protocol, conditions, past);
+    }
+}
+
+// Of a scheme that goes by the answers. Roles are drawn for a group of slots, in each of which they
+// are others: nobody can foresee them, and over the group each is equally often at each place.
+std::optional<PlannedTrial> adaptiveTrial(const Protocol& protocol, int slot,
+                                          std::span<const PastTrial> history) {
+    std::vector<PastTrial> past;
+    std::copy_if(history.begin(), history.end(), std::back_inserter(past),
+                 [](const PastTrial& one) { return one.trial.kind == Kind::main; });
+    const auto condition = nextCondition(protocol, slot, past);
+    if (!condition)
         return std::nullopt;
-    const int condition = ladder[static_cast<std::size_t>(*level)];
-    for (const PastTrial& past : history)
-        repeat += past.trial.condition == condition;
+    int repeat = 1;
+    for (const PastTrial& one : past)
+        repeat += one.trial.condition == *condition;
     const int exchanges = exchangeCount(protocol);
     Random random(protocol.seed,
-                  fmt::format("order/slots {} trial {}", (slot - 1) / exchanges, steps.size()));
+                  fmt::format("order/slots {} trial {}", (slot - 1) / exchanges, past.size()));
     const int drawn = static_cast<int>(random.below(static_cast<std::uint32_t>(exchanges)));
-    return PlannedTrial{Kind::main, condition, rolesOf(protocol, drawn + slot - 1), repeat};
+    return PlannedTrial{Kind::main, *condition, rolesOf(protocol, drawn + slot - 1), repeat};
 }
 
 // Whether something that comes after every `every` main trials comes after this many.
@@ -302,15 +321,15 @@ std::string_view nameOf(Kind kind) {
 
 std::optional<PlannedTrial> next(const Protocol& protocol, int slot,
                                  std::span<const PastTrial> history) {
-    const bool adaptive = protocol.ordering.scheme == OrderScheme::staircase;
+    const bool adaptive = adaptiveTrials(protocol.ordering) > 0;
     return withOthers(protocol, slot, history,
-                      adaptive ? staircaseTrial(protocol, slot, history)
+                      adaptive ? adaptiveTrial(protocol, slot, history)
                                : atOf(mainTrials(protocol, slot), countOf(history, Kind::main)));
 }
 
 std::vector<PlannedTrial> planned(const Protocol& protocol, int slot) {
     std::vector<PlannedTrial> result;
-    if (protocol.ordering.scheme == OrderScheme::staircase)
+    if (adaptiveTrials(protocol.ordering) > 0)
         return result;
     const auto main = mainTrials(protocol, slot);
     std::vector<PastTrial> history;
@@ -324,9 +343,9 @@ std::vector<PlannedTrial> planned(const Protocol& protocol, int slot) {
 
 int longest(const Protocol& protocol) {
     const Ordering& ordering = protocol.ordering;
-    const int main = ordering.scheme == OrderScheme::staircase
-                         ? ordering.staircase.trials
-                         : ordering.repeats * static_cast<int>(mainConditions(protocol).size());
+    const int most = adaptiveTrials(ordering);
+    const int main =
+        most > 0 ? most : ordering.repeats * static_cast<int>(mainConditions(protocol).size());
     const int catches = ordering.catchEvery > 0 ? (main - 1) / ordering.catchEvery : 0;
     return static_cast<int>(ordering.practice.size()) + main + catches;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "experiment/past_trial.h"
 #include "experiment/schedule.h"
 #include "protocols/reader/protocol.h"
 
@@ -15,36 +16,15 @@ namespace obscura {
 // Which trial comes next. A session asks anew before every trial, and resuming one is to ask with
 // the rows there are: nothing else is remembered anywhere.
 
-struct PlannedTrial {
-    enum class Kind { practice, main, catchTrial, rest };
-
-    Kind kind = Kind::main;
-    int condition = -1;          // as the protocol counts them, from 0; -1 for a break
-    std::vector<int> roles = {}; // roles[place] = index into the trial's ordered roles; {0, 1}
-                                 // shows a first, {1, 0} b; empty for a break
-    int repeat = 1;              // which presentation of this condition to this participant
-    int block = 1;               // that the trial belongs to, in the order of this participant
-
-    bool reversed() const { return roles == std::vector<int>{1, 0}; } // of pairs: b is first
-    bool operator==(const PlannedTrial&) const = default;
-};
-
 // As rows spell them: practice, main, catch; and break, of which there is no row.
 std::string_view nameOf(PlannedTrial::Kind kind);
-
-// A trial that was shown. An interrupted one is not shown again, since nothing can be unseen; but
-// its answer leads a staircase nowhere.
-struct PastTrial {
-    PlannedTrial trial;
-    std::map<std::string, std::string> answers; // by name, as in the protocol's `answer`
-    bool interrupted = false;
-};
 
 // std::nullopt: the session is at its end. Pure: the same protocol, slot (from 1) and history,
 // which this function must have led to, always give the same.
 //
 // First all of the ordering's `practice`. Then main trials: in the order of the slot's row of its
-// square (schedule.h), or as drawn for this slot, or as the staircase has it. After each catchEvery
+// square (schedule.h), or as drawn for this slot, or as the answers have it (staircase.h,
+// adaptive.h). After each catchEvery
 // of them a catch trial and after each breakEvery a break, but none after the last. Conditions for
 // practice and catch trials are no part of the rest.
 //
@@ -55,10 +35,10 @@ struct PastTrial {
 std::optional<PlannedTrial> next(const Protocol& protocol, int slot,
                                  std::span<const PastTrial> history);
 
-// All of a session whose order answers do not change; empty for a staircase.
+// All of a session whose order answers do not change; empty where they do.
 std::vector<PlannedTrial> planned(const Protocol& protocol, int slot);
 
-// How many trials there are, breaks not counted; of a staircase, at most.
+// How many trials there are, breaks not counted; where answers decide, at most.
 int longest(const Protocol& protocol);
 
 // Where the slot is in the protocol's scheme; with blocks, in that of the block listed first.

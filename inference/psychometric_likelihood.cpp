@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 
 CurvePoint curvePoint(Sigmoid curve, double z) {
     if (curve != Sigmoid::weibull) {
-        const Distribution at = distribution(curve == Sigmoid::logistic ? Link::logit : Link::probit,
-                                             std::clamp(z, -1e6, 1e6));
+        const Distribution at = distribution(
+            curve == Sigmoid::logistic ? Link::logit : Link::probit, std::clamp(z, -1e6, 1e6));
         return {at.below, at.above, at.density};
     }
     const double rate = std::exp(std::clamp(z, -700.0, 6.5)); // exp(-exp(6.5)) = 1e-289

@@ -114,6 +114,30 @@ fault neighbours-alike experiment/selection.cpp \
 fault reversal-at-the-end experiment/staircase.cpp \
     's|level \+ move < 0|level + move < -1|' \
     experiment_test 'Staircase.*'
+fault batch-within experiment/adaptive.cpp \
+    's|posteriorAfter\(number \* size\)|posteriorAfter(past.size())|' \
+    experiment_test 'InformationOrder.*'
+fault wins-swapped experiment/adaptive.cpp \
+    's|wins\(pair\.second, pair\.first\) \+= second|wins(pair.second, pair.first) += first + 0 * second|' \
+    experiment_test 'InformationOrder.*'
+fault interrupted-teaches experiment/adaptive.cpp \
+    's#past\.interrupted \|\| ##' \
+    experiment_test 'QuestOrder.*'
+fault scores-unsorted experiment/adaptive.cpp \
+    's|byScore\[adaptive\.scores\[i\]\]|byScore[static_cast<double>(i)]|' \
+    experiment_test 'QuestOrder.*'
+fault quest-noise inference/quest_plus.cpp \
+    's|noise_ \* posterior_|0 * (noise_ * posterior_)|' \
+    inference_test '*PublishedRun*'
+fault quest-cells inference/quest_plus.cpp \
+    's|\(1 - confidence\) / 2|(1 - confidence)|' \
+    inference_test 'QuestPlus.*'
+fault gain-of-choice inference/pair_choice.cpp \
+    's|- noise / weights|- 0.5 * noise / weights|' \
+    inference_test 'PairChoice.*'
+fault least-gain inference/pair_choice.cpp \
+    's|gains\[static_cast<std::size_t>\(one\)\] >|gains[static_cast<std::size_t>(one)] <|' \
+    inference_test 'PairChoice.*'
 fault unit-lost experiment/row.cpp \
     's|row\.view2Ms = 1000 \* |row.view2Ms = |' \
     experiment_test 'SimulationTest.TimesAddUp'

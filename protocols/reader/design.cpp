@@ -90,12 +90,21 @@ json toJson(const Texts& texts) {
     return words;
 }
 
+json toJson(const Adaptive& adaptive) {
+    const auto& [trials, width, answer, scores, guess] = adaptive;
+    return {{"trials", trials},
+            {"width", width},
+            {"answer", answer},
+            {"scores", scores},
+            {"guess", guess}};
+}
+
 // All that decides an order, and of that only what differs from how it was before there was a
 // choice: the designs of studies that run must not change. The planned number of participants
 // and how long sessions can be gone on with decide none.
 json toJson(const Ordering& ordering) {
     const auto& [scheme, participants, resumeMinutes, repeats, blocks, apart, practice, catches,
-                 catchEvery, breakEvery, staircase] = ordering;
+                 catchEvery, breakEvery, staircase, adaptive] = ordering;
     const auto& [down, up, reversals, trials, answer] = staircase;
     const auto nameOf = [](Likeness one) { return likenessNames()[static_cast<std::size_t>(one)]; };
     json result = {{"scheme", orderSchemeNames()[static_cast<std::size_t>(scheme)]}};
@@ -117,6 +126,8 @@ json toJson(const Ordering& ordering) {
                        {"reversals", reversals},
                        {"trials", trials},
                        {"answer", answer}});
+    if (scheme == OrderScheme::quest || scheme == OrderScheme::information)
+        result["adaptive"] = toJson(adaptive);
     return result;
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 
 namespace obscura {
 
@@ -26,6 +27,24 @@ void refuse(TomlTable& table, std::initializer_list<const char*> keys, OrderSche
                         fmt::format("means nothing to the scheme \"{}\"; remove it, or choose "
                                     "another scheme",
                                     orderSchemeNames()[static_cast<std::size_t>(scheme)]));
+}
+
+// The keys of other schemes.
+void refuseForeign(TomlTable& table, OrderScheme scheme) {
+    const bool stairs = scheme == OrderScheme::staircase, quest = scheme == OrderScheme::quest;
+    const bool adaptive = quest || scheme == OrderScheme::information;
+    if (scheme != OrderScheme::shuffle)
+        refuse(table, {"apart"}, scheme);
+    if (!stairs)
+        refuse(table, {"down", "up", "reversals"}, scheme);
+    if (stairs || adaptive)
+        refuse(table, {"repeats", "blocks"}, scheme);
+    else
+        refuse(table, {"trials", "answer"}, scheme);
+    if (!adaptive)
+        refuse(table, {"width"}, scheme);
+    if (!quest)
+        refuse(table, {"scores", "guess"}, scheme);
 }
 
 // Likenesses from `scene` on, as many as there are `choices`.
@@ -63,20 +82,39 @@ std::vector<std::string> take(TomlTable& table, std::string_view key,
     return taken;
 }
 
-// The question by whose answers the staircase goes.
-const Question& parseAnswer(TomlTable& table, Staircase& stair,
+// The question by whose answers the scheme goes.
+const Question& parseAnswer(TomlTable& table, std::string& answer,
                             const std::vector<Question>& questions) {
-    stair.answer = table.text("answer", stair.answer);
+    answer = table.text("answer", answer);
     std::vector<std::string> known;
     known.reserve(questions.size());
     for (const Question& question : questions) {
-        if (question.name == stair.answer)
+        if (question.name == answer)
             return question;
         known.push_back(question.name);
     }
     throw Error(placeOf(table, table.has("answer") ? "answer" : "scheme"),
-                fmt::format("expected the name of a question of the trial, found \"{}\"{}",
-                            stair.answer, suggestion(stair.answer, known)));
+                fmt::format("expected the name of a question of the trial, found \"{}\"{}", answer,
+                            suggestion(answer, known)));
+}
+
+void checkRightAnswers(TomlTable& table, const std::vector<ConditionLabels>& conditions,
+                       const Question& question, std::string_view scheme) {
+    if (conditions.size() < 2)
+        throw Error(placeOf(table, "scheme"),
+                    fmt::format("expected a {} of two conditions or more, found one", scheme));
+    for (const ConditionLabels& one : conditions) {
+        if (question.images && !one.correct.empty() && one.correct != "a" && one.correct != "b")
+            throw Error(placeOf(table, "scheme"),
+                        fmt::format("expected \"a\" or \"b\" as the right answer to \"{}\", found "
+                                    "\"{}\"",
+                                    one.id, one.correct));
+        if (one.correct.empty())
+            throw Error(placeOf(table, "scheme"),
+                        fmt::format("expected a right answer to each condition of a {}, found none "
+                                    "to \"{}\"; give it the key \"correct\"",
+                                    scheme, one.id));
+    }
 }
 
 Staircase parseStaircase(TomlTable& table, const std::vector<ConditionLabels>& ladder,
@@ -86,23 +124,63 @@ Staircase parseStaircase(TomlTable& table, const std::vector<ConditionLabels>& l
     stair.up = table.integer("up", 1, 10, stair.up);
     stair.reversals = table.integer("reversals", 1, 100, stair.reversals);
     stair.trials = table.integer("trials", 1, many, stair.trials);
-    const Question& question = parseAnswer(table, stair, questions);
-    if (ladder.size() < 2)
-        throw Error(placeOf(table, "scheme"),
-                    "expected a staircase of two conditions or more, found one");
-    for (const ConditionLabels& step : ladder) {
-        if (question.images && !step.correct.empty() && step.correct != "a" && step.correct != "b")
-            throw Error(placeOf(table, "scheme"),
-                        fmt::format("expected \"a\" or \"b\" as the right answer to \"{}\", found "
-                                    "\"{}\"",
-                                    step.id, step.correct));
-        if (step.correct.empty())
-            throw Error(placeOf(table, "scheme"),
-                        fmt::format("expected a right answer to each condition of a staircase, "
-                                    "found none to \"{}\"; give it the key \"correct\"",
-                                    step.id));
-    }
+    const Question& question = parseAnswer(table, stair.answer, questions);
+    checkRightAnswers(table, ladder, question, "staircase");
     return stair;
+}
+
+void parseScores(TomlTable& table, Adaptive& adaptive, std::size_t conditions) {
+    constexpr double most = 1e6;
+    adaptive.scores = table.numbers("scores", -most, most);
+    const std::set<double> different(adaptive.scores.begin(), adaptive.scores.end());
+    if (different.size() != conditions || adaptive.scores.size() != conditions)
+        throw Error(placeOf(table, table.has("scores") ? "scores" : "scheme"),
+                    fmt::format("expected under \"scores\" {} different numbers, one for each "
+                                "condition of main trials, found {} ({} of them different)",
+                                conditions, adaptive.scores.size(), different.size()));
+}
+
+// Each condition is a pair that differs from all others, so that none is of no use.
+void checkPairs(TomlTable& table, const std::vector<ConditionLabels>& conditions,
+                const Question& question) {
+    if (!question.images || question.kind != Question::Kind::choice)
+        throw Error(placeOf(table, table.has("answer") ? "answer" : "scheme"),
+                    fmt::format("expected a choice between images, found \"{}\", which is none",
+                                question.name));
+    std::map<std::pair<std::string, std::set<std::string>>, std::string> known;
+    for (const ConditionLabels& one : conditions) {
+        if (one.shown.size() != 2)
+            throw Error(placeOf(table, "scheme"),
+                        fmt::format("expected trials of two images, found {}; see \"order\" under "
+                                    "[trial]",
+                                    one.shown.size()));
+        const auto [same, isNew] = known.try_emplace(
+            {one.scene + "\n" + one.level, {one.shown.begin(), one.shown.end()}}, one.id);
+        if (!isNew)
+            throw Error(placeOf(table, "scheme"),
+                        fmt::format("expected each pair of images once, found that of \"{}\" again "
+                                    "as \"{}\"",
+                                    same->second, one.id));
+    }
+}
+
+Adaptive parseAdaptive(TomlTable& table, OrderScheme scheme,
+                       const std::vector<ConditionLabels>& conditions,
+                       const std::vector<Question>& questions) {
+    constexpr double widest = 1e6;
+    Adaptive adaptive;
+    adaptive.trials = table.integer("trials", 1, many, adaptive.trials);
+    if (table.has("width"))
+        adaptive.width = table.number("width", 1e-6, widest);
+    const Question& question = parseAnswer(table, adaptive.answer, questions);
+    if (scheme == OrderScheme::information) {
+        checkPairs(table, conditions, question);
+        return adaptive;
+    }
+    checkRightAnswers(table, conditions, question, "quest");
+    parseScores(table, adaptive, conditions.size());
+    adaptive.guess = table.number("guess", 0, 0.9, adaptive.guess);
+    return adaptive;
 }
 
 const std::string& labelOf(const ConditionLabels& condition, Likeness likeness) {
@@ -155,14 +233,31 @@ int parseEvery(TomlTable& table, std::string_view key, int mainTrials) {
 } // namespace
 
 const std::vector<std::string>& orderSchemeNames() {
-    static const std::vector<std::string> names = {"thesis",  "latin",  "williams",
-                                                   "shuffle", "listed", "staircase"};
+    static const std::vector<std::string> names = {
+        "thesis", "latin", "williams", "shuffle", "listed", "staircase", "quest", "information"};
     return names;
 }
 
 const std::vector<std::string>& likenessNames() {
     static const std::vector<std::string> names = {"scene", "level", "condition"};
     return names;
+}
+
+int adaptiveTrials(const Ordering& ordering) {
+    switch (ordering.scheme) {
+    case OrderScheme::staircase:
+        return ordering.staircase.trials;
+    case OrderScheme::quest:
+    case OrderScheme::information:
+        return ordering.adaptive.trials;
+    case OrderScheme::thesis:
+    case OrderScheme::latin:
+    case OrderScheme::williams:
+    case OrderScheme::shuffle:
+    case OrderScheme::listed:
+        break;
+    }
+    return 0;
 }
 
 Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& conditions,
@@ -172,12 +267,7 @@ Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& con
         table.choice("scheme", orderSchemeNames(), static_cast<std::size_t>(ordering.scheme)));
     ordering.participants = table.integer("participants", 1, 100000, ordering.participants);
     ordering.resumeMinutes = table.integer("resumeMinutes", 0, 525600, ordering.resumeMinutes);
-    if (ordering.scheme != OrderScheme::shuffle)
-        refuse(table, {"apart"}, ordering.scheme);
-    if (ordering.scheme == OrderScheme::staircase)
-        refuse(table, {"repeats", "blocks"}, ordering.scheme);
-    else
-        refuse(table, {"down", "up", "reversals", "trials", "answer"}, ordering.scheme);
+    refuseForeign(table, ordering.scheme);
 
     std::vector<ConditionLabels> main = conditions;
     ordering.practice = take(table, "practice", main);
@@ -189,10 +279,11 @@ Ordering parseOrdering(TomlTable& table, const std::vector<ConditionLabels>& con
         checkApart(main, ordering, placeOf(table, "apart"));
     if (ordering.scheme == OrderScheme::staircase)
         ordering.staircase = parseStaircase(table, main, questions);
+    else if (adaptiveTrials(ordering) > 0)
+        ordering.adaptive = parseAdaptive(table, ordering.scheme, main, questions);
 
-    const int mainTrials = ordering.scheme == OrderScheme::staircase
-                               ? ordering.staircase.trials
-                               : ordering.repeats * static_cast<int>(main.size());
+    const int most = adaptiveTrials(ordering);
+    const int mainTrials = most > 0 ? most : ordering.repeats * static_cast<int>(main.size());
     ordering.breakEvery = parseEvery(table, "breakEvery", mainTrials);
     if (ordering.catches.empty() != !table.has("catchEvery"))
         throw Error(placeOf(table, ordering.catches.empty() ? "catchEvery" : "catch"),

@@ -10,7 +10,7 @@ namespace obscura {
 
 // [ordering]: who sees which conditions in which order, and what else comes between them. The
 // schemes are in experiment/schedule.h, with their sources.
-enum class OrderScheme { thesis, latin, williams, shuffle, listed, staircase };
+enum class OrderScheme { thesis, latin, williams, shuffle, listed, staircase, quest, information };
 
 // Their spellings, in the order of the enumeration.
 const std::vector<std::string>& orderSchemeNames();
@@ -28,6 +28,19 @@ struct Staircase {
     std::string answer = "choice"; // that the condition's `correct` is compared with
 };
 
+// QUEST+ (inference/quest_plus.h), and pairs by expected information (inference/pair_choice.h).
+struct Adaptive {
+    int trials = 100; // main trials that end the session at the latest
+    // That of the widest 95 % interval, at which it ends earlier: of quest the threshold's, in
+    // units of the scores, of information an image's, in JOD. 0: none does.
+    double width = 0;
+    std::string answer = "choice"; // the question by whose answers it goes
+    // Of quest: a number for each condition of main trials, in the order of the file; right answers
+    // become likelier as it rises. No two are the same.
+    std::vector<double> scores;
+    double guess = 0.5; // of quest: the share of right answers where nothing is seen, 0 to 0.9
+};
+
 struct Ordering {
     OrderScheme scheme = OrderScheme::williams;
     int participants = 28;          // planned; what --simulate runs when no number is given
@@ -38,12 +51,18 @@ struct Ordering {
     std::vector<std::string> practice, catches; // ids; these conditions are shown as nothing else
     int catchEvery = 0, breakEvery = 0; // after so many main trials, except the last; 0: never
     Staircase staircase;                // of that scheme alone
+    Adaptive adaptive;                  // of quest and information alone
 };
+
+// Main trials at the latest, of a scheme that goes by the answers; 0 for those that do not.
+int adaptiveTrials(const Ordering& ordering);
 
 // What an order needs to know of a condition.
 struct ConditionLabels {
     std::string id, scene, level;
     std::string correct; // the right answer; "" where there is none
+    // Techniques of the images that the trial's `order` names, as it names them.
+    std::vector<std::string> shown;
 };
 
 // Of a study that has these conditions, in the order of the file, and a trial with these questions.

@@ -228,11 +228,16 @@ void parseConditions(TomlTable& root, Protocol& protocol) {
     }
 }
 
-std::vector<ConditionLabels> labelsOf(const std::vector<Condition>& conditions) {
+std::vector<ConditionLabels> labelsOf(const Protocol& protocol) {
     std::vector<ConditionLabels> labels;
-    labels.reserve(conditions.size());
-    for (const Condition& one : conditions)
-        labels.push_back({one.id, one.view, one.level, one.correct});
+    labels.reserve(protocol.conditions.size());
+    for (const Condition& one : protocol.conditions) {
+        labels.push_back({one.id, one.view, one.level, one.correct, {}});
+        for (const std::string& shown : protocol.trial.order)
+            for (const Role& role : one.roles)
+                if (role.name == shown)
+                    labels.back().shown.push_back(role.technique);
+    }
     return labels;
 }
 
@@ -338,8 +343,8 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
             parseBoost(std::move(*boost), protocol.width, protocol.height, protocol.views);
     parseConditions(root, protocol);
     if (auto ordering = root.table("ordering"))
-        protocol.ordering = parseOrdering(*ordering, labelsOf(protocol.conditions),
-                                          questionsOf(phasesOf(protocol.trial)));
+        protocol.ordering =
+            parseOrdering(*ordering, labelsOf(protocol), questionsOf(phasesOf(protocol.trial)));
     protocol.claims = parseClaims(root, claimableOf(protocol));
     if (auto exclusions = root.table("exclusions"))
         protocol.exclusions = parseExclusions(std::move(*exclusions), protocol);

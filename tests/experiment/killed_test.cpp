@@ -195,7 +195,7 @@ class Killer {
                 finished.insert(trial);
         const int trials = broken.trials + static_cast<int>(observer.trials.size());
         EXPECT_EQ(static_cast<int>(finished.size()), trials - halfSeen);
-        if (study_.protocol.ordering.scheme != OrderScheme::staircase) {
+        if (adaptiveTrials(study_.protocol.ordering) == 0) {
             EXPECT_EQ(observer.trials,
                       std::vector<PlannedTrial>(all_.begin() + broken.trials, all_.end()));
         }

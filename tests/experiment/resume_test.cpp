@@ -167,18 +167,28 @@ TEST_F(ResumeTest, ItCanBreakOffAgain) {
 
 // Where answers decide the order, those before the break count: each trial is the one that a
 // participant who was never disturbed would have seen.
-TEST_F(ResumeTest, AStaircaseGoesOnWhereItStood) {
-    open(OBSCURA_SOURCE "/protocols/staircase.toml");
+class ResumeAdaptiveTest : public ResumeTest, public testing::WithParamInterface<const char*> {};
+
+TEST_P(ResumeAdaptiveTest, GoesOnWhereItStood) {
+    open(fmt::format("{}/protocols/{}.toml", OBSCURA_SOURCE, GetParam()));
     const DataFolder data = folder();
-    dieIn(data, 9, 0);
+    dieIn(data, 10, 0);
     const BrokenSession broken = brokenSession(study, data, session);
     const std::vector<PlannedTrial> all = undisturbed();
-    ASSERT_EQ(broken.history.size(), 8u);
-    for (std::size_t i = 0; i < 8; ++i)
+    ASSERT_EQ(broken.history.size(), 9u);
+    for (std::size_t i = 0; i < 9; ++i)
         EXPECT_EQ(broken.history[i].trial, all[i]);
-    EXPECT_EQ(next(study.protocol, broken.slot, broken.history), all[8]);
-    EXPECT_EQ(goOn(data).front(), all[8]);
+    EXPECT_EQ(next(study.protocol, broken.slot, broken.history), all[9]);
+    EXPECT_EQ(goOn(data).front(), all[9]);
 }
+
+INSTANTIATE_TEST_SUITE_P(Schemes, ResumeAdaptiveTest,
+                         testing::Values("staircase", "quest-plus", "active-pairs"),
+                         [](const auto& protocol) {
+                             std::string name = protocol.param;
+                             std::erase(name, '-');
+                             return name;
+                         });
 
 // The last break before the crash is taken anew, those before it are over.
 TEST_F(ResumeTest, BreaksBetweenTrialsAreNoTrials) {

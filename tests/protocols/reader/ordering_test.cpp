@@ -59,6 +59,11 @@ thanks = "Thanks"
     return text;
 }
 
+// Of the five conditions, four have a right answer, and four show a pair that no other shows.
+const std::string questOrder =
+    "scheme = \"quest\"\npractice = [\"five\"]\nscores = [3, 1, 2.5, -1]";
+const std::string pairsOrder = "scheme = \"information\"\npractice = [\"two\"]";
+
 Ordering read(const std::string& ordering) {
     return parseProtocol(study(ordering), "small.toml").ordering;
 }
@@ -104,6 +109,22 @@ TEST(Ordering, ReadsEveryKey) {
     EXPECT_EQ(stairs.staircase.reversals, 6);
     EXPECT_EQ(stairs.staircase.trials, 40);
     EXPECT_EQ(stairs.staircase.answer, "choice");
+
+    const Ordering quest = read(questOrder + "\ntrials = 40\nwidth = 0.5\nguess = 0");
+    EXPECT_EQ(quest.scheme, OrderScheme::quest);
+    EXPECT_THAT(quest.adaptive.scores, ElementsAre(3, 1, 2.5, -1));
+    EXPECT_EQ(quest.adaptive.trials, 40);
+    EXPECT_EQ(quest.adaptive.width, 0.5);
+    EXPECT_EQ(quest.adaptive.guess, 0);
+    EXPECT_EQ(read(questOrder).adaptive.guess, 0.5);
+    EXPECT_EQ(adaptiveTrials(read(questOrder)), 100);
+
+    const Ordering pairs = read(pairsOrder + "\ntrials = 30\nwidth = 1.5\nbreakEvery = 10");
+    EXPECT_EQ(pairs.scheme, OrderScheme::information);
+    EXPECT_EQ(pairs.adaptive.trials, 30);
+    EXPECT_EQ(pairs.adaptive.width, 1.5);
+    EXPECT_EQ(adaptiveTrials(pairs), 30);
+    EXPECT_EQ(adaptiveTrials(read("")), 0);
 }
 
 struct OrderingMistake {
@@ -169,6 +190,43 @@ const OrderingMistake mistakes[] = {
     {"StaircaseOfOne",
      "scheme = \"staircase\"\npractice = [\"two\", \"three\", \"four\", \"five\"]",
      ":27:10: ordering.scheme: expected a staircase of two conditions or more, found one"},
+    {"ScoresElsewhere", "scores = [1, 2, 3, 4, 5]",
+     ":27:10: ordering.scores: means nothing to the scheme \"williams\"; remove it, or choose "
+     "another scheme"},
+    {"ScoresOfPairs", pairsOrder + "\nscores = [1, 2, 3, 4]",
+     ":29:10: ordering.scores: means nothing to the scheme \"information\"; remove it, or choose "
+     "another scheme"},
+    {"RepeatedPairs", pairsOrder + "\nrepeats = 2",
+     ":29:11: ordering.repeats: means nothing to the scheme \"information\"; remove it, or choose "
+     "another scheme"},
+    {"ReversalsOfQuest", questOrder + "\nreversals = 8",
+     ":30:13: ordering.reversals: means nothing to the scheme \"quest\"; remove it, or choose "
+     "another scheme"},
+    {"WidthOfAStaircase", "scheme = \"staircase\"\nwidth = 2",
+     ":28:9: ordering.width: means nothing to the scheme \"staircase\"; remove it, or choose "
+     "another scheme"},
+    {"NoScores", "scheme = \"quest\"\npractice = [\"five\"]",
+     ":27:10: ordering.scheme: expected under \"scores\" 4 different numbers, one for each "
+     "condition of main trials, found 0 (0 of them different)"},
+    {"TooFewScores", "scheme = \"quest\"\npractice = [\"five\"]\nscores = [1, 2, 3]",
+     ":29:10: ordering.scores: expected under \"scores\" 4 different numbers, one for each "
+     "condition of main trials, found 3 (3 of them different)"},
+    {"EqualScores", "scheme = \"quest\"\npractice = [\"five\"]\nscores = [1, 2, 3, 1]",
+     ":29:10: ordering.scores: expected under \"scores\" 4 different numbers, one for each "
+     "condition of main trials, found 4 (3 of them different)"},
+    {"QuestWithoutRightAnswer", "scheme = \"quest\"\nscores = [1, 2, 3, 4, 5]",
+     ":27:10: ordering.scheme: expected a right answer to each condition of a quest, found none to "
+     "\"five\"; give it the key \"correct\""},
+    {"GuessingTooOften", questOrder + "\nguess = 0.95",
+     ":30:9: ordering.guess: expected a number from 0 to 0.9, found 0.95"},
+    {"NoWidth", pairsOrder + "\nwidth = 0",
+     ":29:9: ordering.width: expected a number from 1e-06 to 1000000, found 0"},
+    {"ThePairTwice", "scheme = \"information\"",
+     ":27:10: ordering.scheme: expected each pair of images once, found that of \"one\" again as "
+     "\"two\""},
+    {"UnknownAnswerOfPairs", pairsOrder + "\nanswer = \"chioce\"",
+     ":29:10: ordering.answer: expected the name of a question of the trial, found \"chioce\"; did "
+     "you mean \"choice\"?"},
 };
 
 class OrderingMistakes : public testing::TestWithParam<OrderingMistake> {};
@@ -215,7 +273,14 @@ TEST(Ordering, AllThatDecidesAnOrderIsInTheDesign) {
              {stairs, stairs + "down = 1"},
              {stairs, stairs + "up = 2"},
              {stairs, stairs + "reversals = 9"},
-             {stairs, stairs + "trials = 99"}})
+             {stairs, stairs + "trials = 99"},
+             {questOrder, questOrder + "\ntrials = 99"},
+             {questOrder, questOrder + "\nwidth = 1"},
+             {questOrder, questOrder + "\nguess = 0.4"},
+             {questOrder, "scheme = \"quest\"\npractice = [\"five\"]\nscores = [3, 1, 2, -1]"},
+             {pairsOrder, "practice = [\"two\"]"},
+             {pairsOrder, pairsOrder + "\ntrials = 99"},
+             {pairsOrder, pairsOrder + "\nwidth = 1"}})
         EXPECT_NE(design(study(one)), design(study(other))) << one << "\n" << other;
     EXPECT_EQ(design(study("")), design(study("scheme = \"williams\"\nrepeats = 1")));
     EXPECT_EQ(design(study("")), design(study("participants = 3")));
@@ -232,6 +297,23 @@ TEST(Ordering, ARightAnswerAmongImagesIsARole) {
         [&] { parseProtocol(text, "small.toml"); },
         ThrowsMessage<Error>("small.toml:27:10: ordering.scheme: expected \"a\" or \"b\" as "
                              "the right answer to \"one\", found \"B\""));
+}
+
+// Nothing to compare: questions that are no choice between images, and trials of one image.
+TEST(Ordering, PairsNeedAChoiceBetweenTwoImages) {
+    const auto reading = [](const std::string& phases) {
+        return [phases] {
+            parseProtocol(
+                study("scheme = \"information\"\npractice = [\"two\"]\n[trial]\n" + phases),
+                "small.toml");
+        };
+    };
+    EXPECT_THAT(
+        reading("phases = [{ name = \"p\", images = [1, 2], questions = [{ name = \"choice\", "
+                "kind = \"scale\", text = \"question\", options = [\"first\", \"second\"] }] }]"),
+        ThrowsMessage<Error>(testing::HasSubstr(
+            "small.toml:27:10: ordering.scheme: expected a choice between images, found "
+            "\"choice\", which is none")));
 }
 
 // As it was before there was a choice, or studies that run could not go on.

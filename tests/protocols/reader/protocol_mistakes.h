@@ -159,7 +159,8 @@ inline const Mistake mistakes[] = {
      "small.toml:39:8: trial.grey: expected a whole number from 0 to 255, found 127.5"},
     {"UnknownOrdering", "[texts]", "[ordering]\nscheme = \"tesis\"\n\n[texts]",
      "small.toml:42:10: ordering.scheme: expected one of \"thesis\", \"latin\", \"williams\", "
-     "\"shuffle\", \"listed\", \"staircase\", found \"tesis\"; did you mean \"thesis\"?"},
+     "\"shuffle\", \"listed\", \"staircase\", \"quest\", \"information\", found \"tesis\"; did you "
+     "mean \"thesis\"?"},
     {"TextsMissing",
      "[texts]\ninstructions = \"Look.\"\nstart = \"Start\"\nquestion = \"Which?\"\nfirst = "
      "\"first\"\nsecond = \"second\"\nthanks = \"Thanks\"\n",
