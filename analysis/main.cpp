@@ -4,6 +4,7 @@
 #include "analysis/export/command.h"
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
+#include "analysis/plan/command.h"
 #include "analysis/report.h"
 #include "analysis/results.h"
 #include "analysis/table.h"
@@ -116,6 +117,8 @@ int analyse(int argc, char** argv) {
     declareRules(app, options.rules);
     ExportOptions exported;
     const CLI::App* exporting = declareExport(app, exported);
+    PlanCommand plan;
+    const CLI::App* planning = declarePlan(app, plan);
     fs::path golden;
     CLI::App* checking = app.add_subcommand(
         "golden", "Compute statistics that another program has computed, and compare them");
@@ -125,6 +128,10 @@ int analyse(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
     if (exporting->parsed()) {
         exportStudy(exported);
+        return 0;
+    }
+    if (planning->parsed()) {
+        planStudy(plan);
         return 0;
     }
     if (checking->parsed())
