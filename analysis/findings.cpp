@@ -1,5 +1,6 @@
 #include "analysis/findings.h"
 
+#include "analysis/people_words.h"
 #include "analysis/verdict.h"
 
 #include "inference/paired.h"
@@ -289,36 +290,6 @@ void markFaults(std::vector<Tally>& tallies, const Conduct& conduct) {
     }
 }
 
-Tally::People judged(const std::vector<double>& shares) {
-    const double share = shares.front(); // everybody's, where there is no interval
-    const Interval interval = tInterval(shares).value_or(Interval{share, share});
-    return {centreTest(shares, 0.5).p, {std::max(interval.low, 0.0), std::min(interval.high, 1.0)}};
-}
-
-// Where anybody voted several times on a condition, its votes are judged by people's shares.
-void judgeByPeople(std::vector<Tally>& tallies, const std::vector<Answer>& answers) {
-    std::vector<std::tuple<std::uint32_t, std::uint64_t, bool>> votes; // condition, person, b
-    votes.reserve(answers.size());
-    for (const auto& [row, file, line] : answers)
-        votes.emplace_back(row.conditionId.number(), row.person(), row.choseB);
-    std::sort(votes.begin(), votes.end());
-    std::map<std::uint32_t, std::vector<double>> shares; // of the people, by condition
-    for (auto one = votes.begin(); one != votes.end();) {
-        const auto [condition, person, ignored] = *one;
-        Votes given;
-        for (; one != votes.end() && std::get<0>(*one) == condition && std::get<1>(*one) == person;
-             ++one)
-            ++(std::get<2>(*one) ? given.b : given.a);
-        shares[condition].push_back(static_cast<double>(given.b) /
-                                    static_cast<double>(given.total()));
-    }
-    for (Tally& tally : tallies) {
-        const std::vector<double>& people = shares[Symbol(tally.condition).number()];
-        if (static_cast<std::int64_t>(people.size()) < tally.votes.total())
-            tally.people = judged(people);
-    }
-}
-
 std::vector<Tally> judgeable(std::vector<Tally> tallies, const std::vector<Answer>& answers,
                              const Conduct& conduct, const std::vector<Claim>& claims) {
     assignFamilies(tallies, claims);
@@ -342,6 +313,7 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     findings.tallies = judgeable(tallyVotes(answers.counted, manifest, order), answers.counted,
                                  *findings.conduct, declared);
     findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
+    findings.people = peopleOf(answers.counted, findings.tallies);
     findings.claims = testClaims(declared, findings.tallies, &answers.counted);
     findings.exclusions = answers.excluded.reasons;
     if (answers.excluded.rows.empty())
@@ -362,14 +334,6 @@ Findings findingsOf(std::string title, std::vector<Tally> counts,
     findings.tests = testsOf(studyData(findings.tallies, nullptr));
     findings.claims = testClaims(claims, findings.tallies, nullptr);
     return findings;
-}
-
-std::vector<Tested> testsOf(const StudyData& data) {
-    std::vector<Tested> tests;
-    for (const TestKind& kind : testKinds())
-        for (StudyTest& result : kind.run(data))
-            tests.push_back({&kind, std::move(result)});
-    return tests;
 }
 
 std::string sourceOf(const Findings& findings) {
@@ -396,6 +360,10 @@ std::vector<std::string> cautionsOf(const Findings& findings) {
              {positionExplains(*findings.conduct), unbalancedOrder(*findings.conduct)})
             if (!caution.empty())
                 cautions.push_back(caution);
+    if (findings.people)
+        for (std::string& caution :
+             peopleCautions(*findings.people, findings.tallies, findings.tests))
+            cautions.push_back(std::move(caution));
     return cautions;
 }
 
@@ -409,6 +377,10 @@ std::vector<std::string> summaryOf(const Findings& findings) {
           unusable(findings), exclusionsOf(findings), repeatedVotes(findings), missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
+    if (findings.people)
+        for (std::string& sentence :
+             peopleSentences(*findings.people, findings.tallies, findings.tests))
+            sentences.push_back(std::move(sentence));
     return sentences;
 }
 

@@ -2,6 +2,7 @@
 
 #include "analysis/claims.h"
 #include "analysis/conduct.h"
+#include "analysis/people.h"
 #include "analysis/study_tests.h"
 #include "analysis/votes.h"
 
@@ -12,13 +13,6 @@
 namespace obscura {
 
 // All that one run of the analysis found; the terminal, the CSV and the report show the same.
-struct Tested {
-    const TestKind* kind;
-    StudyTest result;
-};
-// Every kind of test that applies.
-std::vector<Tested> testsOf(const StudyData& data);
-
 struct Findings {
     std::string title;
     std::vector<Tally> tallies;
@@ -26,6 +20,7 @@ struct Findings {
     std::optional<Manifest> stimuli;
     std::vector<Tested> tests = {};       // beyond single conditions
     std::vector<ClaimResult> claims = {}; // those that the protocol declares
+    std::optional<People> people = {};    // absent for published counts
     // What does not count, and what there would be if it did; absent where nothing is excluded.
     std::vector<Exclusion> exclusions = {};
     struct Whole {

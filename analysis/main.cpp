@@ -4,6 +4,7 @@
 #include "analysis/export/command.h"
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
+#include "analysis/people_table.h"
 #include "analysis/plan/command.h"
 #include "analysis/report.h"
 #include "analysis/results.h"
@@ -145,6 +146,10 @@ int analyse(int argc, char** argv) {
     const std::string page = reportHtml(findings);
     writeFile(csv, resultCsv(findings));
     writeFile(options.out / "tests.csv", testsCsv(findings));
+    if (findings.people) {
+        writeFile(options.out / "people.csv", peopleCsv(findings));
+        writeFile(options.out / "times.csv", timesCsv(findings));
+    }
     writeFile(options.out / "results.csv", resultsCsv(findings));
     writeFile(options.out / "results.json", resultsJson(findings));
     if (!findings.exclusions.empty())

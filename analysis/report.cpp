@@ -61,7 +61,8 @@ and Pearson, which excludes 50 % exactly where p (exact) is below .05. χ²: aga
 p (exact): two-sided binomial, and the one to trust. p (Holm): the same, corrected for the number of
 tests of its hypothesis, so that among them any false difference has a chance of at most 5 %. g:
 Cohen's, share − ½. JOD: how far b lies above a in just-objectionable differences; 1 means that 75 %
-prefer b. The CSV written with this page has all digits and more: other intervals, Bayes factors,
+prefer b. Same, orders balanced: the share as it would be were b shown first and second equally often, with
+Newcombe's interval. The CSV written with this page has all digits and more: other intervals, Bayes factors,
 tests of equivalence, Benjamini and Hochberg's p.</p>
 )";
 
@@ -82,8 +83,9 @@ std::string acrossConditions(const Findings& findings) {
                                    row("th", table, headings));
     for (const auto& cells : table.rows)
         html += fmt::format("<tr>{}</tr>\n", row("td", table, cells));
-    return html + "</tbody></table></div>\n<p class=\"aside\">These p are not corrected for the "
-                  "number of tests. tests.csv has all digits.</p>\n";
+    return html + "</tbody></table></div>\n<p class=\"aside\">p (Holm): corrected "
+                  "for the groups of conditions of which the same is asked; other p are not "
+                  "corrected. tests.csv has all digits.</p>\n";
 }
 
 std::string contactSheets(const Manifest& stimuli) {

@@ -28,6 +28,11 @@ Numbers numbersOf(const Tally& tally, const std::optional<Verdict>& verdict) {
                              statistic.of(tally.votes));
     numbers.emplace_back("p_holm", verdict->holm);
     numbers.emplace_back("p_benjamini_hochberg", verdict->benjaminiHochberg);
+    if (const auto balanced = balancedShare(tally.bFirst, tally.bSecond)) {
+        numbers.emplace_back("share_b_balanced", balanced->share);
+        numbers.emplace_back("balanced_low", balanced->interval.low);
+        numbers.emplace_back("balanced_high", balanced->interval.high);
+    }
     return numbers;
 }
 
@@ -54,9 +59,10 @@ Numbers numbersOf(const ClaimResult& result) {
     return numbers;
 }
 
-Numbers numbersOf(const StudyTest& test) {
+Numbers numbersOf(const Tested& tested) {
     Numbers numbers;
-    add(test.test, numbers);
+    add(tested.result.test, numbers);
+    numbers.emplace_back("p_holm", tested.holm);
     return numbers;
 }
 
@@ -118,7 +124,7 @@ std::string resultsCsv(const Findings& findings) {
         csv += lines("condition", findings.tallies[i].condition,
                      numbersOf(findings.tallies[i], verdicts[i]));
     for (const Tested& tested : findings.tests)
-        csv += lines("test", subjectOf(tested), numbersOf(tested.result));
+        csv += lines("test", subjectOf(tested), numbersOf(tested));
     return csv;
 }
 
@@ -137,13 +143,13 @@ std::string resultsJson(const Findings& findings) {
     const auto verdicts = verdictsOf(findings.tallies);
     for (std::size_t i = 0; i < verdicts.size(); ++i)
         json["conditions"].push_back(objectOf(findings.tallies[i], verdicts[i]));
-    for (const auto& [kind, result] : findings.tests)
-        json["tests"].push_back({{"test", kind->id},
-                                 {"question", kind->question},
-                                 {"method", kind->source},
-                                 {"about", result.about},
-                                 {"note", result.note},
-                                 {"statistics", objectOf(numbersOf(result))}});
+    for (const Tested& tested : findings.tests)
+        json["tests"].push_back({{"test", tested.kind->id},
+                                 {"question", tested.kind->question},
+                                 {"method", tested.kind->source},
+                                 {"about", tested.result.about},
+                                 {"note", tested.result.note},
+                                 {"statistics", objectOf(numbersOf(tested))}});
     for (const Exclusion& exclusion : findings.exclusions)
         json["exclusions"].push_back({{"participant", exclusion.participant},
                                       {"session", exclusion.session},

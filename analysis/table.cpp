@@ -64,6 +64,13 @@ template <auto member>
 std::string votes(const Tally& tally) {
     return fmt::format("{}", tally.votes.*member);
 }
+// Beside the share: what it would be in balanced orders.
+std::string balanced(const Tally& tally) {
+    const auto share = balancedShare(tally.bFirst, tally.bSecond);
+    return share ? fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * share->share,
+                               100 * share->interval.low, 100 * share->interval.high)
+                 : dash;
+}
 using T = Tally;
 const Field printed[] = {
     {"Level", false, text<&T::level>},
@@ -78,6 +85,7 @@ const Field printed[] = {
          return fmt::format("{:.0f} % ({:.0f}–{:.0f})", 100 * shareOf(t.votes), 100 * low,
                             100 * high);
      }},
+    {"same, orders balanced", true, balanced},
     {"χ²", true, nullptr, [](const T& t) { return fmt::format("{:.3f}", chiSquare(t.votes)); }},
     {"p (χ²)", true, nullptr, [](const T& t) { return pText(chiSquareP(chiSquare(t.votes))); }},
     {"p (exact)", true, nullptr, [](const T& t) { return pText(exactP(t.votes)); }},
@@ -96,6 +104,23 @@ const Field stored[] = {
     {"votes_a", true, votes<&Votes::a>},
     {"votes_b", true, votes<&Votes::b>},
 };
+
+std::string shareCells(const std::optional<EstimatedShare>& share) {
+    return share ? fmt::format(",{},{},{}", share->share, share->interval.low, share->interval.high)
+                 : ",,,";
+}
+
+// The votes by the place of b, and the shares that allow for it and for who answered.
+std::string adjustedCells(const Findings& findings, std::size_t i) {
+    const auto& [first, second] =
+        std::pair(findings.tallies[i].bFirst, findings.tallies[i].bSecond);
+    std::string cells = first.total() + second.total() == 0
+                            ? ",,,,"
+                            : fmt::format(",{},{},{},{}", first.a, first.b, second.a, second.b);
+    cells += shareCells(balancedShare(first, second));
+    const bool modelled = findings.people && !findings.people->observers.empty();
+    return cells + shareCells(modelled ? findings.people->observers[i] : std::nullopt);
+}
 
 std::size_t width(const std::string& text) { // in code points
     return static_cast<std::size_t>(
@@ -119,13 +144,20 @@ std::string alignedLine(const Table& table, const std::vector<std::string>& cell
 } // namespace
 
 Table resultTable(const std::vector<Tally>& tallies) {
-    Table table;
+    const bool orders = std::any_of(tallies.begin(), tallies.end(), [](const Tally& tally) {
+        return tally.bFirst.total() > 0 && tally.bSecond.total() > 0;
+    });
+    std::vector<Field> fields;
     for (const Field& field : printed)
+        if (orders || field.label != balanced)
+            fields.push_back(field);
+    Table table;
+    for (const Field& field : fields)
         table.columns.push_back({std::string(field.name), field.number});
     const auto verdicts = verdictsOf(tallies);
     for (std::size_t i = 0; i < tallies.size(); ++i) {
         auto& row = table.rows.emplace_back();
-        for (const Field& field : printed)
+        for (const Field& field : fields)
             row.push_back(cellOf(field, tallies[i], verdicts[i]));
     }
     return table;
@@ -155,7 +187,9 @@ std::string resultCsv(const Findings& findings) {
         csv += fmt::format(",{}", field.name);
     for (const CountStatistic& statistic : countStatistics())
         csv += fmt::format(",{}", statistic.id);
-    csv += ",p_holm,p_benjamini_hochberg,family,verdict,caution\n";
+    csv += ",p_holm,p_benjamini_hochberg,votes_a_b_first,votes_b_b_first,votes_a_b_second,"
+           "votes_b_b_second,share_b_balanced,balanced_low,balanced_high,share_b_observers,"
+           "observers_low,observers_high,family,verdict,caution\n";
     const std::string caution = fmt::format("{}", fmt::join(cautionsOf(findings), " "));
     const auto verdicts = verdictsOf(findings.tallies);
     for (std::size_t i = 0; i < verdicts.size(); ++i) {
@@ -168,6 +202,7 @@ std::string resultCsv(const Findings& findings) {
         csv += verdicts[i]
                    ? fmt::format(",{},{}", verdicts[i]->holm, verdicts[i]->benjaminiHochberg)
                    : ",,";
+        csv += adjustedCells(findings, i);
         csv += fmt::format(",{},{},{}\n", csvCell(tally.family),
                            verdicts[i] ? nameOf(verdicts[i]->outcome) : "", csvCell(caution));
     }
@@ -181,6 +216,7 @@ Table testTable(const Findings& findings) {
                  {"Statistic", true},
                  {"df", true},
                  {"p", true},
+                 {"p (Holm)", true},
                  {"To know"}},
                 {}};
     for (const Tested& one : findings.tests) {
@@ -191,7 +227,8 @@ Table testTable(const Findings& findings) {
         };
         table.rows.push_back({std::string(one.kind->question), one.result.about,
                               std::string(one.kind->source), number(&Test::statistic),
-                              number(&Test::df), test ? pText(test->p) : dash, one.result.note});
+                              number(&Test::df), test ? pText(test->p) : dash,
+                              one.holm ? pText(*one.holm) : dash, one.result.note});
     }
     return table;
 }
@@ -199,27 +236,31 @@ Table testTable(const Findings& findings) {
 std::string testsText(const Findings& findings) {
     std::string text;
     std::string_view question;
-    for (const auto& [kind, result] : findings.tests) {
+    for (const auto& [kind, result, holm] : findings.tests) {
         if (kind->question != question)
             text += fmt::format("{}\n", kind->question);
         question = kind->question;
         const std::string p = !result.test             ? "no test"
                               : result.test->p < 0.001 ? "p < 0.001"
                                                        : fmt::format("p = {:.3f}", result.test->p);
-        text += fmt::format("  {}: {} ({}){}{}\n", result.about, p, kind->source,
+        const std::string adjusted =
+            holm ? fmt::format(", {} after Holm",
+                               holm < 0.001 ? "< 0.001" : fmt::format("{:.3f}", *holm))
+                 : "";
+        text += fmt::format("  {}: {}{} ({}){}{}\n", result.about, p, adjusted, kind->source,
                             result.note.empty() ? "" : "; ", result.note);
     }
     return text;
 }
 
 std::string testsCsv(const Findings& findings) {
-    std::string csv = "source,test,question,about,statistic,df,p,note,method\n";
-    for (const auto& [kind, result] : findings.tests) {
+    std::string csv = "source,test,question,about,statistic,df,p,p_holm,note,method\n";
+    for (const auto& [kind, result, holm] : findings.tests) {
         const Test test = result.test.value_or(Test());
-        csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", csvCell(sourceOf(findings)), kind->id,
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csvCell(sourceOf(findings)), kind->id,
                            csvCell(kind->question), csvCell(result.about), digits(test.statistic),
                            digits(test.df), result.test ? fmt::format("{}", test.p) : "",
-                           csvCell(result.note), csvCell(kind->source));
+                           digits(holm), csvCell(result.note), csvCell(kind->source));
     }
     return csv;
 }

@@ -2,9 +2,13 @@
 
 #include "inference/equivalence.h"
 #include "inference/multiplicity.h"
+#include "inference/paired.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
+#include <tuple>
 
 namespace obscura {
 
@@ -33,6 +37,12 @@ void decide(const Tally& tally, Verdict& verdict) {
         verdict.outcome = Outcome::equivalent;
         verdict.margin = margin;
     }
+}
+
+Tally::People judged(const std::vector<double>& shares) {
+    const double share = shares.front(); // everybody's, where there is no interval
+    const Interval interval = tInterval(shares).value_or(Interval{share, share});
+    return {centreTest(shares, 0.5).p, {std::max(interval.low, 0.0), std::min(interval.high, 1.0)}};
 }
 
 } // namespace
@@ -69,6 +79,29 @@ std::vector<std::optional<Verdict>> verdictsOf(const std::vector<Tally>& tallies
         }
     }
     return verdicts;
+}
+
+void judgeByPeople(std::vector<Tally>& tallies, const std::vector<Answer>& answers) {
+    std::vector<std::tuple<std::uint32_t, std::uint64_t, bool>> votes; // condition, person, b
+    votes.reserve(answers.size());
+    for (const auto& [row, file, line] : answers)
+        votes.emplace_back(row.conditionId.number(), row.person(), row.choseB);
+    std::sort(votes.begin(), votes.end());
+    std::map<std::uint32_t, std::vector<double>> shares; // of the people, by condition
+    for (auto one = votes.begin(); one != votes.end();) {
+        const auto [condition, person, ignored] = *one;
+        Votes given;
+        for (; one != votes.end() && std::get<0>(*one) == condition && std::get<1>(*one) == person;
+             ++one)
+            ++(std::get<2>(*one) ? given.b : given.a);
+        shares[condition].push_back(static_cast<double>(given.b) /
+                                    static_cast<double>(given.total()));
+    }
+    for (Tally& tally : tallies) {
+        const std::vector<double>& people = shares[Symbol(tally.condition).number()];
+        if (static_cast<std::int64_t>(people.size()) < tally.votes.total())
+            tally.people = judged(people);
+    }
 }
 
 } // namespace obscura

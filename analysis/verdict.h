@@ -32,6 +32,9 @@ struct Verdict {
 };
 std::string_view nameOf(Verdict::Outcome outcome);
 
+// Where anybody voted several times on a condition, its votes are judged by people's shares.
+void judgeByPeople(std::vector<Tally>& tallies, const std::vector<Answer>& answers);
+
 // Of at least one vote: the p that decides, exactP or that of the people, and the interval of the
 // share that belongs to it, Clopper and Pearson's or theirs.
 double decidingP(const Tally& tally);

@@ -188,7 +188,9 @@ std::vector<Tally> tallyVotes(const std::vector<Answer>& answers, const Manifest
                 checkImages(answer, *stimuli);
             alike = alikeOf(answer.row);
         }
+        Votes& placed = answer.row.aFirst ? tally->bSecond : tally->bFirst;
         ++(answer.row.choseB ? tally->votes.b : tally->votes.a);
+        ++(answer.row.choseB ? placed.b : placed.a);
     }
     groupByLevel(tallies);
     return tallies;

@@ -27,6 +27,8 @@ struct Tally {
     };
     std::optional<People> people = {};
     double margin = 0; // declared: within 1/2 -+ that, a split is as good as even; 0: none
+    // The same votes by the place that b was shown in; none for published counts.
+    Votes bFirst = {}, bSecond = {};
 };
 
 // One tally per condition, in the order of the stimuli's manifest (then every condition has one,

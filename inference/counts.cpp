@@ -30,6 +30,17 @@ long double logBeta(long double a, long double b) {
     return lgamma(a) + lgamma(b) - lgamma(a + b);
 }
 
+// Wilson's, at the normal deviate z.
+Interval scoreInterval(std::int64_t successes, std::int64_t trials, double z) {
+    const double n = totalOf({trials - successes, successes});
+    const double share = static_cast<double>(successes) / n, z2 = z * z;
+    const double scale = 1 / (1 + z2 / n);
+    const double centre = scale * (share + z2 / (2 * n));
+    const double reach = scale * z * std::sqrt(share * (1 - share) / n + z2 / (4 * n * n));
+    // Without successes, or without failures, one end is exactly 0 or 1; rounding would miss it.
+    return {successes == 0 ? 0 : centre - reach, successes == trials ? 1 : centre + reach};
+}
+
 } // namespace
 
 void requireVotes(Votes votes) {
@@ -63,14 +74,7 @@ double midP(Votes votes) {
 }
 
 Interval wilson(std::int64_t successes, std::int64_t trials, double confidence) {
-    const double n = totalOf({trials - successes, successes});
-    const double share = static_cast<double>(successes) / n;
-    const double z = probit((1 + confidence) / 2), z2 = z * z;
-    const double scale = 1 / (1 + z2 / n);
-    const double centre = scale * (share + z2 / (2 * n));
-    const double reach = scale * z * std::sqrt(share * (1 - share) / n + z2 / (4 * n * n));
-    // Without successes, or without failures, one end is exactly 0 or 1; rounding would miss it.
-    return {successes == 0 ? 0 : centre - reach, successes == trials ? 1 : centre + reach};
+    return scoreInterval(successes, trials, probit((1 + confidence) / 2));
 }
 
 Interval clopperPearson(std::int64_t successes, std::int64_t trials, double confidence) {
@@ -88,6 +92,26 @@ Interval jeffreys(std::int64_t successes, std::int64_t trials, double confidence
     const double rest = static_cast<double>(trials - successes) + 0.5;
     const double tail = (1 - confidence) / 2;
     return {boost::math::ibeta_inv(k, rest, tail), boost::math::ibetac_inv(k, rest, tail)};
+}
+
+std::optional<EstimatedShare> balancedShare(Votes bFirst, Votes bSecond, double confidence) {
+    if (bFirst.total() == 0 || bSecond.total() == 0)
+        return std::nullopt;
+    const double p = shareOfB(bFirst), q = shareOfB(bSecond), mean = (p + q) / 2;
+    const auto intervalAt = [&](double z) {
+        const Interval ofP = scoreInterval(bFirst.b, bFirst.total(), z);
+        const Interval ofQ = scoreInterval(bSecond.b, bSecond.total(), z);
+        return Interval{mean - std::hypot(p - ofP.low, q - ofQ.low) / 2,
+                        mean + std::hypot(ofP.high - p, ofQ.high - q) / 2};
+    };
+    double low = 0,
+           high = 40; // deviates: one half is outside of the interval at low, inside at high
+    for (int i = 0; i < 60 && mean != 0.5; ++i) {
+        const double middle = (low + high) / 2;
+        const Interval interval = intervalAt(middle);
+        (interval.low > 0.5 || interval.high < 0.5 ? low : high) = middle;
+    }
+    return EstimatedShare{mean, intervalAt(probit((1 + confidence) / 2)), normalP(low)};
 }
 
 double cohenG(Votes votes) { return shareOfB(votes) - 0.5; }

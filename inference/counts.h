@@ -49,6 +49,21 @@ Interval clopperPearson(std::int64_t successes, std::int64_t trials, double conf
 // change of the limits at unanimity.
 Interval jeffreys(std::int64_t successes, std::int64_t trials, double confidence = 0.95);
 
+// A share of b that was not counted but estimated, and the two-sided p of one half that belongs to
+// its interval.
+struct EstimatedShare {
+    double share = 0.5;
+    Interval interval;
+    double p = 1;
+};
+
+// The share of b as it would be were b shown first and second equally often: the mean of its shares
+// in both orders, whatever the place adds to choices. The interval combines Wilson's of the two:
+// Newcombe, Commun. Stat. Simul. Comput. 30 (2001) 367, for other weights Zou and Donner, Stat.
+// Med. 27 (2008) 1693; p is where it begins to exclude one half. Absent unless there are votes in
+// both orders.
+std::optional<EstimatedShare> balancedShare(Votes bFirst, Votes bSecond, double confidence = 0.95);
+
 // Cohen, Statistical Power Analysis, 2nd ed. 1988: g = share - 1/2 (chapter 5),
 // h = 2 asin sqrt(share) - pi/2 (chapter 6), w = sqrt(chi-square / N) = 2 |g| (chapter 7).
 double cohenG(Votes votes);

@@ -150,7 +150,8 @@ TEST(Table, LeavesCsvCellsEmptyWhereThereIsNoFigure) {
     Findings findings = thesis();
     findings.tallies.resize(1);
     findings.tallies[0].votes = {};
-    const std::string empty(countStatistics().size() + 3, ','); // and p of two kinds, and cautions
+    // And p of two kinds, four counts by place, and two other shares with their intervals.
+    const std::string empty(countStatistics().size() + 3 + 10, ',');
     EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0" + empty + "H2,,\n"));
 }
 

@@ -1,4 +1,5 @@
 #include "experiment/schedule.h"
+#include "protocols/reader/balance.h"
 #include "tests/experiment/order_study.h"
 
 #include <gtest/gtest.h>

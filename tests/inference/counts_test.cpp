@@ -287,5 +287,21 @@ TEST(Counts, WithoutVotesThrow) {
     }
 }
 
+// By R: the definition with qnorm, and uniroot for p.
+TEST(BalancedShare, IsTheMeanOfBothOrders) {
+    const auto share = balancedShare({7, 3}, {5, 15});
+    ASSERT_TRUE(share);
+    EXPECT_DOUBLE_EQ(share->share, 0.525);
+    EXPECT_NEAR(share->interval.low, 0.379419892536, 1e-11);
+    EXPECT_NEAR(share->interval.high, 0.691602582059, 1e-11);
+    EXPECT_NEAR(share->p, 0.770133942812, 1e-9);
+    const auto extreme = balancedShare({1, 9}, {0, 20});
+    EXPECT_NEAR(extreme->interval.low, 0.777903693127, 1e-11);
+    EXPECT_NEAR(extreme->interval.high, 0.991061893452, 1e-11);
+    EXPECT_NEAR(extreme->p, 1.250376633e-07, 1e-15);
+    EXPECT_DOUBLE_EQ(balancedShare({20, 0}, {0, 10})->p, 1);
+    EXPECT_FALSE(balancedShare({20, 3}, {}));
+}
+
 } // namespace
 } // namespace obscura
