@@ -1,6 +1,7 @@
 // obscura-analysis: the answers of a study, or published counts, become a table, a CSV and a page;
 // its command export writes a study's data in the form of a standard.
 
+#include "analysis/deviations.h"
 #include "analysis/export/command.h"
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
@@ -84,19 +85,34 @@ void declareRules(CLI::App& app, AnswerRules& rules) {
         "Leave out trials during which the window lost the keyboard; else they count");
 }
 
-Findings findingsOf(const Options& options) {
-    const std::vector<Claim> claims =
-        options.protocol.empty() ? std::vector<Claim>() : readProtocol(options.protocol).claims;
-    if (!options.counts.empty())
-        return findingsOf(fmt::format("Published counts: {}", options.counts.filename().string()),
-                          readCounts(options.counts), claims);
+struct Analysis {
+    Findings findings;
+    std::vector<Deviation> deviations; // none where nothing is declared
+};
+
+Analysis analysisOf(const Options& options) {
+    std::optional<Protocol> protocol;
+    if (!options.protocol.empty())
+        protocol = readProtocol(options.protocol);
+    const Declared given = protocol ? declaredBy(*protocol) : Declared();
+    const Protocol* known = protocol ? &*protocol : nullptr;
+    if (!options.counts.empty()) {
+        Findings findings =
+            findingsOf(fmt::format("Published counts: {}", options.counts.filename().string()),
+                       readCounts(options.counts), given.claims);
+        return {std::move(findings), {}};
+    }
     const Answers answers = collectAnswers(options.data, options.rules);
     for (const BadRow& bad : answers.bad)
         fmt::print(stderr, "skipped: {}{}\n", bad.place.prefix(), bad.message);
     std::optional<Manifest> stimuli;
     if (!options.stimuli.empty())
         stimuli = readManifest(options.stimuli / "manifest.json");
-    return findingsOf(answers, std::move(stimuli), claims);
+    Analysis analysis{findingsOf(answers, std::move(stimuli), given.claims), {}};
+    const Declared& declared = answers.declared.claims.empty() ? given : answers.declared;
+    if (!declared.claims.empty())
+        analysis.deviations = deviationsOf(analysis.findings, declared, known);
+    return analysis;
 }
 
 void printFindings(const Findings& findings) {
@@ -140,7 +156,7 @@ int analyse(int argc, char** argv) {
     if (options.data.empty() && options.counts.empty())
         throw Error("expected a study's folder, CSV files, or --counts FILE; see --help");
 
-    const Findings findings = findingsOf(options);
+    const auto [findings, deviations] = analysisOf(options);
     const fs::path csv = options.csv.empty() ? options.out / "votes.csv" : options.csv;
     const fs::path report = options.out / "report.html";
     const std::string page = reportHtml(findings);
@@ -154,6 +170,8 @@ int analyse(int argc, char** argv) {
     writeFile(options.out / "results.json", resultsJson(findings));
     if (!findings.exclusions.empty())
         writeFile(options.out / "exclusions.csv", exclusionsCsv(findings));
+    if (!deviations.empty())
+        writeFile(options.out / "deviations.csv", deviationsCsv(deviations));
     writeFile(report, page);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());
