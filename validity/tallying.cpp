@@ -107,15 +107,17 @@ std::string rateText(const Rate& rate) {
                        100 * interval.high);
 }
 
-// Against 4.5 ... 5.5 %, given what chance allows.
+double shareOf(const Rate& rate) { return static_cast<double>(rate.hits) / rate.of; }
+
+// By the rate itself, not by what chance allows.
 std::string sizeVerdict(const Rate& rate) {
-    const Interval interval = clopperPearson(rate.hits, rate.of);
-    return interval.low > 0.055 ? "**too often**" : interval.high < 0.045 ? "below" : "holds";
+    const double share = shareOf(rate);
+    return share > 0.055 ? "**too often**" : share < 0.045 ? "below" : "holds";
 }
 
 std::string coverVerdict(const Rate& rate) {
-    const Interval interval = clopperPearson(rate.hits, rate.of);
-    return interval.high < 0.94 ? "**too seldom**" : interval.low > 0.96 ? "above" : "holds";
+    const double share = shareOf(rate);
+    return share < 0.94 ? "**too seldom**" : share > 0.96 ? "above" : "holds";
 }
 
 // What is known of why a kind of test promises too much; "" where nothing is.
@@ -222,11 +224,10 @@ std::string validityPage(const std::vector<World>& all, const std::vector<Outcom
         "`obscura-analysis` does. Bypassed are the window, the ledger, the journal, and the "
         "waiting for "
         "the disk.\n\n"
-        "A test **holds** if the interval of its rate reaches 4.5 to 5.5 % where there is nothing "
-        "to "
-        "find; tests of counts are often *below*, for few outcomes are possible. **Too often** is "
-        "a "
-        "broken promise: do not believe that test in such a world. Rates are of the studies in "
+        "A test **holds** if its rate is 4.5 to 5.5 % where there is nothing to find; tests of "
+        "counts are "
+        "often *below*, for few outcomes are possible. **Too often** is a broken promise: do not "
+        "believe that test in such a world by a p near .05. Rates are of the studies in "
         "which a test "
         "exists. A 95 % interval holds if it covers the truth in 94 to 96 % of studies. Tests of "
         "totals "
