@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstdint>
 #include <tuple>
 #include <unordered_map>
@@ -90,6 +91,9 @@ void countTrial(const Vote& row, ShownByCondition& shownBy,
     conduct.wrongMasks += row.maskFramesShown != row.maskFramesPlanned;
     conduct.missedFrames += row.missedFrames > 0;
     conduct.earlyPresses += row.earlyPressesInMask > 0;
+    ++conduct.maskTimes[static_cast<int>(std::lround(row.maskMs))];
+    ++conduct.maskFrames[row.maskFramesShown - row.maskFramesPlanned];
+    ++conduct.missed[row.missedFrames];
 }
 
 void countTrials(const std::vector<Answer>& answers, Conduct& conduct) {
@@ -150,6 +154,7 @@ Conduct conductOf(const Answers& answers) {
     conduct.bad = answers.bad;
     countPeople(counted, conduct);
     countSessions(counted, conduct);
+    conduct.flow = flowOf(answers, conduct.participants, conduct.sessions);
     countTrials(counted, conduct);
     noteProvenance(counted, conduct);
     conduct.maskMs = spreadOf<&Vote::maskMs>(counted);

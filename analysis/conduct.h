@@ -1,6 +1,7 @@
 #pragma once
 
 #include "analysis/answers.h"
+#include "analysis/flow.h"
 
 #include <map>
 #include <set>
@@ -32,6 +33,7 @@ struct Conduct {
     int incomplete = 0; // sessions with fewer trials than the longest one
     int mostVotes = 0;  // of one participant on one condition; the tests assume 1
     LeftOut leftOut;
+    Flow flow;
     int earlierFiles = 0; // of an earlier version's format
     std::vector<BadRow> bad;
 
@@ -46,6 +48,9 @@ struct Conduct {
     int missedFrames = 0; // trials with a missed frame
     int earlyPresses = 0; // trials with a key press during the mask
     Spread maskMs, view1Ms, view2Ms, decisionMs;
+    std::map<int, int> maskTimes;  // trials by duration of the mask, whole milliseconds
+    std::map<int, int> maskFrames; // trials by refreshes of the mask beyond those planned
+    std::map<int, int> missed;     // trials by missed frames
 
     std::set<std::string> changedImages; // conditions whose image files differ between trials
     std::set<std::string> protocols, programs, machines;

@@ -173,6 +173,7 @@ int analyse(int argc, char** argv) {
     if (!deviations.empty())
         writeFile(options.out / "deviations.csv", deviationsCsv(deviations));
     writeFile(report, page);
+    writeBesideReport(options.out, csv, findings);
     printFindings(findings);
     fmt::print("\nreport: {}\ntable:  {}\n", report.string(), csv.string());
     return 0;

@@ -14,15 +14,13 @@ namespace obscura {
 
 namespace {
 
-constexpr double width = 7.9, positionHeight = 3.2, timesHeight = 2.6; // inches
+constexpr double positionHeight = 3.2, timesHeight = 2.6; // inches
 constexpr std::int64_t mostBins = 20;
 
-std::string stamp(const Findings& findings) {
-    if (stampOf(findings).empty())
-        return {};
-    return fmt::format("set label {} at screen 0.5, screen 0.5 center rotate by 15 back "
-                       "font 'sans-serif,{:.0f}' textcolor rgb '#F3DACD'\n",
-                       gnuplotBold(sourceOf(findings) + " DATA"), 4.5 * width);
+// Entries side by side where there is room.
+const char* keyOf(double width) {
+    return width < wideFigure ? "set key outside above left maxcols 1\n"
+                              : "set key outside above left maxrows 1\n";
 }
 
 // -- Position --
@@ -67,7 +65,7 @@ double percentAt(const Bins& bins, std::size_t bin) {
     return 100 * static_cast<double>(bin) / static_cast<double>(bins.last);
 }
 
-std::string positionScript(const Findings& findings, const Bins& bins) {
+std::string positionScript(const Findings& findings, const Bins& bins, double width) {
     std::string rows;
     for (std::size_t i = 0; i < bins.people.size(); ++i)
         rows += fmt::format("{} {} {} {}\n", percentAt(bins, i), bins.people[i], bins.biased[i],
@@ -76,18 +74,18 @@ std::string positionScript(const Findings& findings, const Bins& bins) {
     const double top = std::max(*std::max_element(bins.people.begin(), bins.people.end()),
                                 *std::max_element(bins.expected.begin(), bins.expected.end()));
     std::vector<std::string> elements = {
-        "$people using 1:2 with boxes linecolor rgb '#56B4E9' title 'people'"};
+        "$people using 1:2 with boxes linecolor rgb '#4A8FC2' title 'people'"};
     if (*std::max_element(bins.biased.begin(), bins.biased.end()) > 0)
         elements.emplace_back("$people using 1:($3 > 0 ? $3 : 1/0) with boxes fillstyle pattern 2 "
                               "border linecolor rgb '#D55E00' title 'one place more than chance'");
     elements.emplace_back("$people using 1:4 with linespoints pointtype 6 pointsize 0.8 linewidth "
                           "1.5 linecolor rgb '#000000' title 'expected by chance'");
-    return plot::style + stamp(findings) +
+    return plot::style + stampScript(findings, width, positionHeight) +
            fmt::format("set xrange [{}:{}]\nset yrange [0:{}]\n", -half, 100 + half, 1.08 * top) +
            "set xtics 0, 25, 100 nomirror out format '%.0f %%'\nset ytics nomirror out\n"
            "set xlabel " +
            gnuplotText("share of a person's votes for the second picture") +
-           "\nset ylabel 'people'\nset key outside above left maxrows 1\n"
+           "\nset ylabel 'people'\n" + keyOf(width) +
            "set arrow from 50, graph 0 to 50, graph 1 nohead linewidth 1 dashtype 3 "
            "linecolor rgb '#333333'\n" +
            fmt::format("set boxwidth {} absolute\nset style fill solid 1\n", 1.6 * half) +
@@ -98,7 +96,7 @@ std::string positionScript(const Findings& findings, const Bins& bins) {
 
 std::string seconds(double ms) { return fmt::format("{:.2f} s", ms / 1000); }
 
-std::string timesScript(const Findings& findings, const ResponseTimes& times) {
+std::string timesScript(const Findings& findings, const ResponseTimes& times, double width) {
     std::string boxes, medians, flagged, labels;
     std::vector<double> all(times.flaggedMs);
     for (std::size_t i = 0; i < times.measures.size(); ++i) {
@@ -118,10 +116,11 @@ std::string timesScript(const Findings& findings, const ResponseTimes& times) {
         if (value > 0)
             flagged += fmt::format("{} 1\n", value / 1000);
     std::string script =
-        plot::style + stamp(findings) + plot::ticks("x", logarithmicAxis(all)) +
+        plot::style + stampScript(findings, width, timesHeight) +
+        plot::ticks("x", logarithmicAxis(all)) +
         fmt::format("set yrange [0.4:{}]\nset ytics scale 0 ({})\nset grid noytics\n",
                     static_cast<double>(times.measures.size()) + 0.6, labels) +
-        "set xlabel 'seconds'\nset key outside above left maxrows 1\n" +
+        "set xlabel 'seconds'\nset lmargin 17\nset rmargin 3\n" + keyOf(width) +
         plot::block("boxes", boxes) + plot::block("medians", medians);
     if (!flagged.empty())
         script += plot::block("flagged", flagged);
@@ -129,7 +128,7 @@ std::string timesScript(const Findings& findings, const ResponseTimes& times) {
         "$boxes using 2:1:($5 - $2):(0) with vectors nohead linewidth 1.5 linecolor rgb '#0072B2' "
         "title '5 to 95 %'",
         "$boxes using 3:1:3:4:($1 - 0.22):($1 + 0.22) with boxxyerror fillstyle solid 1 "
-        "linecolor rgb '#56B4E9' title 'middle half'",
+        "linecolor rgb '#4A8FC2' title 'middle half'",
         "$medians using 1:2 with points pointtype 7 pointsize 0.9 linecolor rgb '#000000' "
         "title 'median'"};
     if (!flagged.empty())
@@ -145,8 +144,12 @@ std::vector<StudyFigure> positionFigures(const Findings& findings) {
         return {};
     const Bins bins = binsOf(findings.people->persons);
     StudyFigure figure;
-    figure.drawing = {"position", "How often people chose the second picture",
-                      positionScript(findings, bins), width, positionHeight};
+    const auto draw = [&](double width) {
+        return Figure{"position", "How often people chose the second picture",
+                      positionScript(findings, bins, width), width, positionHeight};
+    };
+    figure.drawing = draw(wideFigure);
+    figure.narrow = draw(narrowFigure);
     figure.caption = "People by the share of their votes that went to the second picture. Where "
                      "place does not matter the bars follow the circles; people at either end "
                      "chose a place, not a picture. Hatched: beyond chance for the person "
@@ -172,8 +175,12 @@ std::vector<StudyFigure> timesFigures(const Findings& findings) {
     if (!drawable) // a logarithm is missing
         return {};
     StudyFigure figure;
-    figure.drawing = {"times", "How long people looked, and took to answer",
-                      timesScript(findings, times), width, timesHeight};
+    const auto draw = [&](double width) {
+        return Figure{"times", "How long people looked, and took to answer",
+                      timesScript(findings, times, width), width, timesHeight};
+    };
+    figure.drawing = draw(wideFigure);
+    figure.narrow = draw(narrowFigure);
     figure.caption = fmt::format(
         "Each picture's viewing time and the time from the question to the answer: median, middle "
         "half, and from 5 to 95 %. Decisions whose logarithm is more than 2.5 MAD from the median "

@@ -1,91 +1,207 @@
 #include "analysis/report.h"
 
-#include "analysis/chart.h"
+#include "analysis/figure_list.h"
+#include "analysis/methods_text.h"
+#include "analysis/report_parts.h"
+#include "analysis/results.h"
+#include "analysis/starters.h"
+#include "analysis/statistics.h"
 #include "analysis/table.h"
 #include "analysis/verdict.h"
 #include "base/files.h"
 #include "base/version.h"
 #include "report/html.h"
+#include "report/number.h"
 
 #include <fmt/format.h>
 
-#include <set>
+#include <algorithm>
+#include <cmath>
 
 namespace obscura {
 
 namespace {
 
-constexpr std::string_view style =
-    R"(.stamp { background: #B33A00; color: white; font-size: 1.15rem;
-         font-weight: bold; padding: .6rem 1rem; margin: 1rem 0; }
-figure svg, figure img { width: 100%; height: auto; }
-.differs td { background: #DCEBF5; }
-.fact { overflow-wrap: anywhere; }
-.hash { font-family: monospace; }
-@media print { .stamp, .differs td { print-color-adjust: exact; -webkit-print-color-adjust: exact; } }
-)";
-
-std::string paragraphs(const Findings& findings) {
-    std::string text;
-    for (const std::string& sentence : summaryOf(findings))
-        text += (text.empty() ? "" : " ") + sentence;
-    return element("p", text);
+std::string listOf(const std::vector<std::string>& sentences, const char* kind) {
+    std::string html;
+    for (const std::string& sentence : sentences)
+        html += element("li", sentence);
+    return html.empty() ? html : fmt::format("<ul class=\"{}\">\n{}</ul>\n", kind, html);
 }
 
-std::string row(const char* cellName, const Table& table, const std::vector<std::string>& cells) {
-    std::string html;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-        html += fmt::format("<{0}{1}>{2}</{0}>", cellName,
-                            table.columns[i].number ? " class=\"number\"" : "", escaped(cells[i]));
+// First what was claimed, then what else is to know.
+std::string answer(const Findings& findings) {
+    const std::vector<std::string> sentences = summaryOf(findings);
+    const auto others = sentences.begin() + static_cast<std::ptrdiff_t>(findings.claims.size());
+    return "<h2 id=\"answer\">The answer</h2>\n" +
+           listOf({sentences.begin(), others}, "answer claims") +
+           listOf({others, sentences.end()}, "answer");
+}
+
+std::string figureSection(const std::vector<StudyFigure>& figures) {
+    std::string html = "<h2 id=\"figures\">Figures</h2>\n";
+    for (std::size_t i = 0; i < figures.size(); ++i)
+        html += figureHtml(figures[i], static_cast<int>(i) + 1);
     return html;
 }
 
-std::string tableHtml(const Table& table, const std::vector<Tally>& tallies) {
-    std::vector<std::string> headings;
-    for (const Table::Column& column : table.columns)
-        headings.push_back(column.heading);
-    std::string html = fmt::format("<div class=\"wide\"><table>\n<thead><tr>{}</tr></thead>\n"
-                                   "<tbody>\n",
-                                   row("th", table, headings));
-    const auto verdicts = verdictsOf(tallies);
-    for (std::size_t i = 0; i < table.rows.size(); ++i)
-        html += fmt::format("<tr{}>{}</tr>\n",
-                            verdicts[i] && verdicts[i]->differs() ? " class=\"differs\"" : "",
-                            row("td", table, table.rows[i]));
-    return html + "</tbody></table></div>\n";
-}
-
 constexpr std::string_view tableNote = R"(<p class="aside">Votes for the more realistic of two
-images; shaded where p (Holm) is below .05. b share: with the 95 % interval of Clopper
-and Pearson, which excludes 50 % exactly where p (exact) is below .05. χ²: against an even split, one degree of freedom.
-p (exact): two-sided binomial, and the one to trust. p (Holm): the same, corrected for the number of
-tests of its hypothesis, so that among them any false difference has a chance of at most 5 %. g:
-Cohen's, share − ½. JOD: how far b lies above a in just-objectionable differences; 1 means that 75 %
-prefer b. Same, orders balanced: the share as it would be were b shown first and second equally often, with
-Newcombe's interval. The CSV written with this page has all digits and more: other intervals, Bayes factors,
-tests of equivalence, Benjamini and Hochberg's p.</p>
+images; shaded where they differ from an even split. b share: with the 95 % interval of Clopper and
+Pearson, which excludes 50 % exactly where p (exact) is below .05. χ²: against an even split, one
+degree of freedom. p (exact): two-sided binomial, and the one to trust. p (Holm): the same, corrected
+for the number of tests of its claim or, without claims, its hypothesis, so that among them any false
+difference has a chance of at most 5 %. g: Cohen's, share − ½. JOD: how far b lies above a in
+just-objectionable differences; 1 means that 75 % prefer b. Same, orders balanced: the share as it
+would be were b shown first and second equally often, with Newcombe's interval.</p>
 )";
 
-std::string results(const Findings& findings) {
-    return "<h2>Results</h2>\n<figure>\n" + chartSvg(findings) + "</figure>\n" +
-           tableHtml(resultTable(findings.tallies), findings.tallies) + std::string(tableNote);
+// A table under a heading of its own: its entry in the contents.
+struct Part {
+    std::string anchor, heading, html;
+};
+
+std::string resultsHtml(const std::vector<Tally>& tallies, const std::string& label) {
+    std::vector<bool> differs;
+    for (const auto& verdict : verdictsOf(tallies))
+        differs.push_back(verdict && verdict->differs());
+    return tableHtml(resultTable(tallies), label, differs);
 }
 
-std::string acrossConditions(const Findings& findings) {
+Part claims(const Findings& findings) {
+    return {"numbers-claims", "Each claim",
+            findings.claims.empty() ? "" : tableHtml(claimTable(findings.claims), "Each claim")};
+}
+
+Part conditions(const Findings& findings) {
+    return {"numbers-conditions", "Each condition",
+            resultsHtml(findings.tallies, "Each condition") + std::string(tableNote)};
+}
+
+Part excluded(const Findings& findings) {
+    Part part{"numbers-excluded", "What is excluded, and the results with it", ""};
+    if (!findings.exclusions.empty())
+        part.html = tableHtml(exclusionTable(findings.exclusions), "What is excluded");
+    if (findings.whole && !findings.whole->claims.empty())
+        part.html += element("p", "Each claim, if all of this counted:") +
+                     tableHtml(claimTable(findings.whole->claims), "Each claim, with all answers");
+    if (findings.whole)
+        part.html += element("p", "Each condition, if all of this counted:") +
+                     resultsHtml(findings.whole->tallies, "Each condition, with all answers");
+    return part;
+}
+
+Part acrossConditions(const Findings& findings) {
+    const std::string heading = "Across conditions and people";
     if (findings.tests.empty())
-        return {};
-    const Table table = testTable(findings);
-    std::vector<std::string> headings;
-    for (const Table::Column& column : table.columns)
-        headings.push_back(column.heading);
-    std::string html = fmt::format("<h2>Across conditions and people</h2>\n<div class=\"wide\">"
-                                   "<table>\n<thead><tr>{}</tr></thead>\n<tbody>\n",
-                                   row("th", table, headings));
-    for (const auto& cells : table.rows)
-        html += fmt::format("<tr>{}</tr>\n", row("td", table, cells));
-    return html + "</tbody></table></div>\n<p class=\"aside\">p (Holm): corrected "
-                  "for the groups of conditions of which the same is asked; other p are not "
-                  "corrected. tests.csv has all digits.</p>\n";
+        return {"numbers-tests", heading, ""};
+    return {
+        "numbers-tests", heading,
+        tableHtml(testTable(findings), heading) +
+            "<p class=\"aside\">p (Holm): corrected for the groups of conditions of which the same "
+            "is asked; other p are not corrected.</p>\n"};
+}
+
+constexpr std::size_t conditionsAcross = 7; // of one table: more do not fit a printed page
+
+std::string statisticText(const CountStatistic& statistic, Votes votes) {
+    const std::optional<double> value =
+        votes.total() > 0 ? statistic.of(votes) : std::optional<double>();
+    if (!value)
+        return "–";
+    const double size = std::abs(*value);
+    return size == 0 || (size >= 1e-3 && size < 1e6) ? readable(*value, 4)
+                                                     : fmt::format("{:.3g}", *value);
+}
+
+Part everyStatistic(const Findings& findings) {
+    std::string html;
+    const std::vector<Tally>& tallies = findings.tallies;
+    const std::size_t tables = (tallies.size() + conditionsAcross - 1) / conditionsAcross;
+    for (std::size_t t = 0; t < tables; ++t) {
+        const std::size_t first = t * tallies.size() / tables,
+                          end = (t + 1) * tallies.size() / tables;
+        Table table{{{"Statistic"}, {"Meaning"}}, {}};
+        for (std::size_t i = first; i < end; ++i)
+            table.columns.push_back({tallies[i].condition, true});
+        for (const CountStatistic& statistic : countStatistics()) {
+            auto& row = table.rows.emplace_back(std::vector<std::string>{
+                std::string(statistic.id), std::string(statistic.meaning)});
+            for (std::size_t i = first; i < end; ++i)
+                row.push_back(statisticText(statistic, tallies[i].votes));
+        }
+        html += tableHtml(table, fmt::format("Every statistic of conditions {} to {}",
+                                             tallies[first].condition, tallies[end - 1].condition));
+    }
+    return {"numbers-statistics", "Every statistic of each condition", html};
+}
+
+Part numbersOf(const StudyFigure& figure, std::size_t number) {
+    const std::string name = fmt::format("Numbers of figure {}", number);
+    return {"numbers-" + figure.drawing.name, fmt::format("{}: {}", name, figure.drawing.title),
+            tableHtml(figure.numbers, name)};
+}
+
+// Those of `parts` that have something to show.
+std::vector<Part> present(std::vector<Part> parts) {
+    std::erase_if(parts, [](const Part& part) { return part.html.empty(); });
+    return parts;
+}
+
+std::vector<Part> tablesOf(const Findings& findings) {
+    return present({claims(findings), conditions(findings), excluded(findings),
+                    acrossConditions(findings), everyStatistic(findings)});
+}
+
+std::string everyNumber(const std::vector<Part>& parts, const std::vector<StudyFigure>& figures) {
+    std::vector<Part> all = parts;
+    for (std::size_t i = 0; i < figures.size(); ++i)
+        all.push_back(numbersOf(figures[i], i + 1));
+    std::string html =
+        "<h2 id=\"numbers\">Every number</h2>\n<p class=\"aside\">With all digits, and for "
+        "programs: votes.csv, tests.csv and results.csv beside this page, which start.R and "
+        "start.py load, and results.json. The folder figures has each figure as SVG, PDF and "
+        "gnuplot script.</p>\n";
+    for (const Part& part : all)
+        html +=
+            fmt::format("<h3 id=\"{}\">{}</h3>\n{}", part.anchor, escaped(part.heading), part.html);
+    return html;
+}
+
+std::string methods(const Findings& findings) {
+    std::string html = "<h2 id=\"methods\">Methods, ready to paste</h2>\n<div class=\"paste\">\n";
+    for (const std::string& paragraph : methodsText(findings))
+        html += element("p", paragraph);
+    return html + "</div>\n";
+}
+
+struct Entry {
+    std::string anchor, text;
+    std::vector<Entry> below = {};
+};
+
+std::string listOf(const std::vector<Entry>& entries) {
+    std::string html = "<ul>\n";
+    for (const Entry& entry : entries)
+        html += fmt::format("<li><a href=\"#{}\">{}</a>{}</li>\n", entry.anchor,
+                            escaped(entry.text), entry.below.empty() ? "" : listOf(entry.below));
+    return html + "</ul>\n";
+}
+
+std::string contents(const Findings& findings, const std::vector<Part>& tables,
+                     const std::vector<StudyFigure>& figures) {
+    Entry drawn{"figures", "Figures"};
+    for (std::size_t i = 0; i < figures.size(); ++i)
+        drawn.below.push_back({"figure-" + figures[i].drawing.name,
+                               fmt::format("{}. {}", i + 1, figures[i].drawing.title)});
+    Entry numbers{"numbers", "Every number"};
+    for (const Part& table : tables)
+        numbers.below.push_back({table.anchor, table.heading});
+    std::vector<Entry> entries = {
+        {"answer", "The answer"}, drawn, numbers, {"methods", "Methods, ready to paste"}};
+    if (findings.stimuli)
+        entries.push_back({"stimuli", "Stimuli"});
+    entries.push_back({"conduct", "How the study was run"});
+    return "<nav aria-label=\"Contents\">\n" + listOf(entries) + "</nav>\n";
 }
 
 std::string contactSheets(const Manifest& stimuli) {
@@ -97,47 +213,29 @@ std::string contactSheets(const Manifest& stimuli) {
             throw Error({path.string(), 0, 0, {}},
                         "not the contact sheet that the stimuli's manifest describes; run "
                         "obscura-stimuli again");
-        html += fmt::format("<figure><img alt=\"Every pair, its occlusion and its difference\" "
-                            "src=\"{}\"/></figure>\n",
+        html += fmt::format("<figure class=\"wide\" role=\"region\" tabindex=\"0\" "
+                            "aria-label=\"Contact sheet\"><img alt=\"Every pair, its occlusion "
+                            "and its difference\" src=\"{}\"/></figure>\n",
                             dataAddress("image/png", bytes));
     }
     return html;
 }
 
-std::string occlusionTable(const Manifest& stimuli) {
-    std::string html = "<div class=\"wide\"><table>\n<thead><tr><th>Condition</th><th>image</th>"
-                       "<th>technique</th><th class=\"number\">mean occlusion</th>"
-                       "<th class=\"number\">radius, m</th></tr></thead>\n<tbody>\n";
-    for (const ConditionRecord& condition : stimuli.conditions)
-        for (const ImageRecord& image : condition.images) {
-            const bool first = &image == &condition.images.front();
-            const auto once = [&](const std::string& cell) { return first ? cell : ""; };
-            const std::size_t rows = condition.images.size();
-            html +=
-                fmt::format("<tr>{}<td>{}</td><td>{}</td><td class=\"number\">{:.3f}</td>{}</tr>\n",
-                            once(fmt::format("<th scope=\"row\" rowspan=\"{}\">{}</th>", rows,
-                                             escaped(condition.condition))),
-                            escaped(image.role), escaped(image.name), image.meanOcclusion,
-                            once(fmt::format("<td class=\"number\" rowspan=\"{}\">{:g}</td>", rows,
-                                             condition.radius)));
-        }
-    return html + "</tbody></table></div>\n";
-}
-
-std::string renderedBy(const Manifest& stimuli) {
-    std::set<std::string> makers;
+Table occlusionTable(const Manifest& stimuli) {
+    Table table{
+        {{"Condition"}, {"image"}, {"technique"}, {"mean occlusion", true}, {"radius, m", true}},
+        {}};
     for (const ConditionRecord& condition : stimuli.conditions)
         for (const ImageRecord& image : condition.images)
-            makers.insert(fmt::format("obscura-stimuli {} ({}), OpenGL {}, {}, {}",
-                                      image.recipe.programVersion, stimuli.commit,
-                                      image.recipe.glVersion, image.recipe.glRenderer,
-                                      image.recipe.glVendor));
-    return fmt::format("{} × {} pixels, by {}", stimuli.width, stimuli.height,
-                       fmt::join(makers, "; "));
+            table.rows.push_back({condition.condition, image.role, image.name,
+                                  fmt::format("{:.3f}", image.meanOcclusion),
+                                  fmt::format("{:g}", condition.radius)});
+    return table;
 }
 
 std::string stimuliSection(const Manifest& stimuli) {
-    return "<h2>Stimuli</h2>\n" + contactSheets(stimuli) + occlusionTable(stimuli);
+    return "<h2 id=\"stimuli\">Stimuli</h2>\n" + contactSheets(stimuli) +
+           tableHtml(occlusionTable(stimuli), "Stimuli");
 }
 
 std::string factRow(const Fact& fact) {
@@ -160,11 +258,11 @@ std::string howItWasRun(const Findings& findings) {
     if (findings.stimuli)
         facts.push_back({"Images rendered", renderedBy(*findings.stimuli)});
     facts.push_back({"Analysed by", fmt::format("obscura-analysis {} ({})", version(), commit())});
-    std::string html = "<h2>How the study was run</h2>\n";
+    std::string html = "<h2 id=\"conduct\">How the study was run</h2>\n";
     if (!findings.conduct)
         html += element("p", "These are published counts: how they were gathered, and whether "
                              "orders were balanced, cannot be told from them.");
-    html += "<table><tbody>\n";
+    html += "<table class=\"facts\"><tbody>\n";
     for (const Fact& fact : facts)
         html += factRow(fact);
     html += "</tbody></table>\n";
@@ -174,19 +272,33 @@ std::string howItWasRun(const Findings& findings) {
 } // namespace
 
 std::string reportHtml(const Findings& findings) {
+    const std::vector<StudyFigure> figures = figuresOf(findings);
     const std::string stamp = stampOf(findings);
     const std::string mark = stamp.empty() ? "" : fmt::format("[{}] ", sourceOf(findings));
-    std::string html = pageHead(mark + findings.title, style);
+    std::string html = pageHead(mark + findings.title, reportStyle) + "<main>\n";
     html += element("h1", findings.title);
     std::vector<std::string> loud = cautionsOf(findings);
     if (!stamp.empty())
         loud.insert(loud.begin(), stamp);
     for (const std::string& line : loud)
         html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(line));
-    html += paragraphs(findings) + results(findings) + acrossConditions(findings);
+    const std::vector<Part> tables = tablesOf(findings);
+    html += answer(findings) + contents(findings, tables, figures) + figureSection(figures) +
+            everyNumber(tables, figures) + methods(findings);
     if (findings.stimuli)
         html += stimuliSection(*findings.stimuli);
-    return html + howItWasRun(findings) + "</body>\n</html>\n";
+    return html + howItWasRun(findings) + "</main>\n</body>\n</html>\n";
+}
+
+void writeBesideReport(const std::filesystem::path& folder, const std::filesystem::path& votes,
+                       const Findings& findings) {
+    std::vector<Figure> drawings;
+    for (const StudyFigure& figure : figuresOf(findings))
+        drawings.push_back(figure.drawing);
+    writeFigures(folder / "figures", drawings);
+    const std::string path = std::filesystem::proximate(votes, folder).generic_string();
+    writeFile(folder / "start.R", startR(path));
+    writeFile(folder / "start.py", startPython(path));
 }
 
 } // namespace obscura

@@ -2,10 +2,15 @@
 
 #include "base/files.h"
 #include "report/gnuplot.h"
+#include "report/html.h"
 #include "report/marks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace obscura {
 
@@ -25,7 +30,36 @@ std::string pdfTerminal(const Figure& figure) {
                   figure.width, figure.height);
 }
 
+// Ids and what refers to them, within tags only.
+std::string renamed(const std::string& svg, const std::string& prefix) {
+    constexpr std::array<std::string_view, 5> before = {" id='", " id=\"", "href='#", "href=\"#",
+                                                        "url(#"};
+    std::string result;
+    bool inTag = false;
+    for (std::size_t at = 0; at < svg.size(); ++at) {
+        inTag = svg[at] == '<' || (inTag && svg[at] != '>');
+        result += svg[at];
+        if (inTag && std::any_of(before.begin(), before.end(), [&](std::string_view text) {
+                return std::string_view(result).ends_with(text);
+            }))
+            result += prefix;
+    }
+    return result;
+}
+
 } // namespace
+
+std::string pageSvg(const Figure& figure, int width, int height, const std::string& prefix) {
+    const std::string terminal =
+        format("set terminal svg enhanced size {},{} dynamic font 'sans-serif,8' "
+               "fontscale 1.625 background rgb 'white'\n",
+               width, height);
+    const std::string svg = gnuplotSvg(terminal + figure.script, figure.title);
+    constexpr std::string_view opening = "<svg";
+    return format("<svg class=\"{}\" role=\"img\" aria-label=\"{}\"", prefix,
+                  escaped(figure.title)) +
+           renamed(svg.substr(opening.size()), prefix + "-");
+}
 
 void writeFigures(const std::filesystem::path& folder, const std::vector<Figure>& figures) {
     for (const Figure& figure : figures) {

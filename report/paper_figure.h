@@ -21,6 +21,11 @@ struct Figure {
 // gnuplot -e "set terminal pdfcairo; set output 'NAME.pdf'" NAME.gnuplot
 void writeFigures(const std::filesystem::path& folder, const std::vector<Figure>& figures);
 
+// The figure as a part of a page, so many pixels wide and high, with type of 13 pixels where the
+// script sets none. It is an image to assistive technology, named by the title; what its elements
+// are called (ids) begins with `prefix`, for a page may hold several.
+std::string pageSvg(const Figure& figure, int width, int height, const std::string& prefix);
+
 // Pieces of the figures' scripts.
 namespace plot {
 

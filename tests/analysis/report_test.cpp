@@ -1,11 +1,10 @@
-#include "analysis/chart.h"
 #include "analysis/report.h"
 #include "analysis/statistics.h"
 #include "analysis/table.h"
 #include "analysis/verdict.h"
 #include "base/csv.h"
 #include "report/html.h"
-#include "tests/analysis/sample_study.h"
+#include "tests/analysis/sample_findings.h"
 #include "tests/report/xml.h"
 
 #include <gmock/gmock.h>
@@ -23,22 +22,8 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-Findings thesis() {
-    return {"Thesis",
-            readCounts(std::filesystem::path(OBSCURA_SOURCE) / "analysis/thesis_table4.csv"),
-            std::nullopt, std::nullopt};
-}
-
-Findings studied(const test::Folder& folder, bool simulated) {
-    const auto data = test::writeStudy(folder / "study", 28, simulated);
-    const Answers answers = collectAnswers(std::vector{data}, {});
-    Findings findings;
-    findings.stimuli = readManifest(test::writeStimuli(folder / "stimuli") / "manifest.json");
-    findings.title = findings.stimuli->title;
-    findings.tallies = tallyVotes(answers.counted, &*findings.stimuli);
-    findings.conduct = conductOf(answers);
-    return findings;
-}
+using test::studied;
+using test::thesis;
 
 std::string joined(const std::vector<std::string>& sentences) {
     return fmt::format("{}", fmt::join(sentences, "\n"));
@@ -155,33 +140,6 @@ TEST(Table, LeavesCsvCellsEmptyWhereThereIsNoFigure) {
     EXPECT_THAT(resultCsv(findings), HasSubstr(",0,0" + empty + "H2,,\n"));
 }
 
-TEST(Chart, IsSvgWithEveryLabelAndCount) {
-    const std::string svg = chartSvg(thesis());
-    EXPECT_EQ(svg.rfind("<svg", 0), 0u);
-    EXPECT_EQ(test::faultOfXml(svg), "");
-    for (const char* text :
-         {"moderate", "characters: Blizzard8 / RayMarching30", "16 : 20", "50 %"})
-        EXPECT_THAT(svg, HasSubstr(text));
-}
-
-TEST(Chart, DrawsNamesAsTheyAreWritten) {
-    Findings findings = thesis();
-    findings.tallies.resize(1);
-    findings.tallies[0].scene = "it's \"a_b^c\" {d} \\e @f &g ~h <i> é `date`";
-    findings.tallies[0].level = "low_{er}\nlevel";
-    const std::string svg = chartSvg(findings);
-    EXPECT_THAT(svg, HasSubstr("it's \"a_b^c\" {d} \\e @f &amp;g ~h &lt;i> é `date`"));
-    EXPECT_THAT(svg, HasSubstr("low_{er} level"));
-    EXPECT_EQ(test::faultOfXml(svg), "");
-}
-
-TEST(Chart, IsDrawnWithoutAnyVotes) {
-    Findings findings = thesis();
-    for (Tally& tally : findings.tallies)
-        tally.votes = {};
-    EXPECT_THAT(chartSvg(findings), HasSubstr("0 : 0"));
-}
-
 class ReportPage : public testing::Test {
   protected:
     test::Folder folder_;
@@ -204,7 +162,6 @@ TEST_F(ReportPage, StampsSimulatedDataEverywhere) {
     EXPECT_THAT(page, HasSubstr("<title>[SIMULATED] A sample &amp; its &lt;title&gt;</title>"));
     EXPECT_THAT(page, HasSubstr("<p class=\"stamp\">SIMULATED DATA: 56 of 56 votes were cast by a "
                                 "program. They say nothing about people.</p>"));
-    EXPECT_THAT(chartSvg(findings), HasSubstr("SIMULATED DATA"));
     EXPECT_THAT(resultCsv(findings), HasSubstr("\nSIMULATED,c2,"));
 }
 

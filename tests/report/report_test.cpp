@@ -1,6 +1,8 @@
 #include "report/gnuplot.h"
 #include "report/html.h"
+#include "report/lettering.h"
 #include "report/number.h"
+#include "report/paper_figure.h"
 #include "tests/error_of.h"
 #include "tests/report/xml.h"
 
@@ -54,6 +56,26 @@ TEST(Html, EscapesAndEncodes) {
     EXPECT_EQ(dataAddress("text/plain", ""), "data:text/plain;base64,");
     EXPECT_EQ(dataAddress("text/plain", "a"), "data:text/plain;base64,YQ==");
     EXPECT_EQ(dataAddress("text/plain", "abc"), "data:text/plain;base64,YWJj");
+}
+
+TEST(Lettering, CountsLettersNotBytes) {
+    EXPECT_EQ(letters("χ² – é"), 6u);
+    EXPECT_EQ(shortened("χ² – é", 6), "χ² – é");
+    EXPECT_EQ(shortened("χ² – é!", 6), "χ² – …");
+    EXPECT_EQ(shortened("ab", 1), "…");
+    EXPECT_THAT(wrapped(" one  two three", 7), testing::ElementsAre("one two", "three"));
+    EXPECT_THAT(wrapped("unbreakable é é", 3), testing::ElementsAre("unbreakable", "é é"));
+    EXPECT_TRUE(wrapped("", 3).empty());
+}
+
+TEST(PageSvg, CanStandTwiceInOnePage) {
+    const Figure figure{"x", "A & B", "plot x with points title ' id=\"gp'\n", 4, 3};
+    const std::string svg = pageSvg(figure, 340, 255, "left");
+    EXPECT_THAT(svg, StartsWith("<svg class=\"left\" role=\"img\" aria-label=\"A &amp; B\""));
+    EXPECT_THAT(svg, AllOf(HasSubstr("viewBox=\"0 0 340 255\""), HasSubstr("id='left-gpPt0'"),
+                           HasSubstr("xlink:href='#left-gpPt0'"), Not(HasSubstr("id='gp")),
+                           Not(HasSubstr("='#gp")), HasSubstr("> id=\"gp<")));
+    EXPECT_EQ(test::faultOfXml(svg), "");
 }
 
 TEST(Xml, FindsFaults) {
