@@ -1,10 +1,12 @@
 // obscura-analysis: the answers of a study, or published counts, become a table, a CSV and a page;
 // its command export writes a study's data in the form of a standard.
 
+#include "analysis/deviations.h"
 #include "analysis/export/command.h"
 #include "analysis/findings.h"
 #include "analysis/golden/golden.h"
 #include "analysis/people_table.h"
+#include "analysis/plan/command.h"
 #include "analysis/report.h"
 #include "analysis/results.h"
 #include "analysis/scales/scale_table.h"
@@ -85,19 +87,34 @@ void declareRules(CLI::App& app, AnswerRules& rules) {
         "Leave out trials during which the window lost the keyboard; else they count");
 }
 
-Findings findingsOf(const Options& options) {
-    const std::vector<Claim> claims =
-        options.protocol.empty() ? std::vector<Claim>() : readProtocol(options.protocol).claims;
-    if (!options.counts.empty())
-        return findingsOf(fmt::format("Published counts: {}", options.counts.filename().string()),
-                          readCounts(options.counts), claims);
+struct Analysis {
+    Findings findings;
+    std::vector<Deviation> deviations; // none where nothing is declared
+};
+
+Analysis analysisOf(const Options& options) {
+    std::optional<Protocol> protocol;
+    if (!options.protocol.empty())
+        protocol = readProtocol(options.protocol);
+    const Declared given = protocol ? declaredBy(*protocol) : Declared();
+    const Protocol* known = protocol ? &*protocol : nullptr;
+    if (!options.counts.empty()) {
+        Findings findings =
+            findingsOf(fmt::format("Published counts: {}", options.counts.filename().string()),
+                       readCounts(options.counts), given.claims);
+        return {std::move(findings), {}};
+    }
     std::optional<Manifest> stimuli;
     if (!options.stimuli.empty())
         stimuli = readManifest(options.stimuli / "manifest.json");
     if (isTrialData(options.data))
-        return trialFindings(options.data, options.rules, stimuli);
+        return {trialFindings(options.data, options.rules, stimuli), {}};
     const Answers answers = collectAnswers(options.data, options.rules);
-    return findingsOf(answers, std::move(stimuli), claims);
+    Analysis analysis{findingsOf(answers, std::move(stimuli), given.claims), {}};
+    const Declared& declared = answers.declared.claims.empty() ? given : answers.declared;
+    if (!declared.claims.empty())
+        analysis.deviations = deviationsOf(analysis.findings, declared, known);
+    return analysis;
 }
 
 void printFindings(const Findings& findings) {
@@ -123,6 +140,8 @@ int analyse(int argc, char** argv) {
     declareRules(app, options.rules);
     ExportOptions exported;
     const CLI::App* exporting = declareExport(app, exported);
+    PlanCommand plan;
+    const CLI::App* planning = declarePlan(app, plan);
     fs::path golden;
     CLI::App* checking = app.add_subcommand(
         "golden", "Compute statistics that another program has computed, and compare them");
@@ -134,12 +153,16 @@ int analyse(int argc, char** argv) {
         exportStudy(exported);
         return 0;
     }
+    if (planning->parsed()) {
+        planStudy(plan);
+        return 0;
+    }
     if (checking->parsed())
         return printGolden(golden);
     if (options.data.empty() && options.counts.empty())
         throw Error("expected a study's folder, CSV files, or --counts FILE; see --help");
 
-    const Findings findings = findingsOf(options);
+    const auto [findings, deviations] = analysisOf(options);
     if (findings.conduct)
         for (const BadRow& bad : findings.conduct->bad)
             fmt::print(stderr, "skipped: {}{}\n", bad.place.prefix(), bad.message);
@@ -147,7 +170,7 @@ int analyse(int argc, char** argv) {
     const fs::path csv =
         !options.csv.empty() ? options.csv : options.out / (isPairs ? "votes.csv" : "scales.csv");
     const fs::path report = options.out / "report.html";
-    const std::string page = reportHtml(findings);
+    const std::string page = reportHtml(findings, deviations);
     if (isPairs) {
         writeFile(csv, resultCsv(findings));
         writeFile(options.out / "tests.csv", testsCsv(findings));
@@ -163,6 +186,8 @@ int analyse(int argc, char** argv) {
                   scalesCsv(findings.scales, sourceOf(findings)));
     if (!findings.exclusions.empty())
         writeFile(options.out / "exclusions.csv", exclusionsCsv(findings));
+    if (!deviations.empty())
+        writeFile(options.out / "deviations.csv", deviationsCsv(deviations));
     writeFile(report, page);
     writeBesideReport(options.out, csv, findings);
     printFindings(findings);

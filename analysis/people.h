@@ -20,7 +20,7 @@ struct Person {
     Votes repeats;          // pairs of answers to one condition: a disagree, b agree
     double view1Ms = 0, view2Ms = 0, decisionMs = 0; // medians
     int flaggedTimes = 0;                            // decisions, by the default rule
-    std::optional<Observer> observer;                // where the model is fitted
+    std::optional<ObserverTraits> observer;          // where the model is fitted
 
     std::int64_t trials() const { return places.total(); }
 };

@@ -20,7 +20,7 @@ struct PersonCell {
     std::string (*cell)(const Person&);
 };
 
-template <Estimate Observer::*member, double Estimate::*part>
+template <Estimate ObserverTraits::*member, double Estimate::*part>
 std::string observer(const Person& person) {
     return person.observer ? digits((*person.observer).*member.*part) : "";
 }
@@ -32,7 +32,7 @@ std::string ratio(const Votes& votes) {
 }
 
 using P = Person;
-using O = Observer;
+using O = ObserverTraits;
 using E = Estimate;
 const PersonCell columns[] = {
     {"study_id", [](const P& p) { return csvCell(p.study.text()); }},

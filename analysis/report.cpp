@@ -181,9 +181,16 @@ std::vector<Part> present(std::vector<Part> parts) {
     return parts;
 }
 
-std::vector<Part> tablesOf(const Findings& findings) {
-    return present({claims(findings), conditions(findings), excluded(findings),
-                    acrossConditions(findings), scales(findings), everyStatistic(findings)});
+Part deviated(const std::vector<Deviation>& deviations) {
+    const std::string heading = "What was declared, and what was done";
+    return {"numbers-deviations", heading,
+            deviations.empty() ? "" : tableHtml(deviationTable(deviations), heading)};
+}
+
+std::vector<Part> tablesOf(const Findings& findings, const std::vector<Deviation>& deviations) {
+    return present({claims(findings), deviated(deviations), conditions(findings),
+                    excluded(findings), acrossConditions(findings), scales(findings),
+                    everyStatistic(findings)});
 }
 
 std::string everyNumber(const std::vector<Part>& parts, const std::vector<StudyFigure>& figures) {
@@ -305,7 +312,7 @@ std::string howItWasRun(const Findings& findings) {
 
 } // namespace
 
-std::string reportHtml(const Findings& findings) {
+std::string reportHtml(const Findings& findings, const std::vector<Deviation>& deviations) {
     const std::vector<StudyFigure> figures = figuresOf(findings);
     const std::string stamp = stampOf(findings);
     const std::string mark = stamp.empty() ? "" : fmt::format("[{}] ", sourceOf(findings));
@@ -316,7 +323,7 @@ std::string reportHtml(const Findings& findings) {
         loud.insert(loud.begin(), stamp);
     for (const std::string& line : loud)
         html += fmt::format("<p class=\"stamp\">{}</p>\n", escaped(line));
-    const std::vector<Part> tables = tablesOf(findings);
+    const std::vector<Part> tables = tablesOf(findings, deviations);
     html += answer(findings) + contents(findings, tables, figures) + figureSection(figures) +
             everyNumber(tables, figures) + methods(findings);
     if (findings.stimuli)

@@ -236,8 +236,8 @@ std::string Form::valueOf(std::size_t index) const {
     return given.typed;
 }
 
-std::vector<Answer> Form::answers() const {
-    std::vector<Answer> result;
+std::vector<FormAnswer> Form::answers() const {
+    std::vector<FormAnswer> result;
     for (std::size_t i = 0; i < questions_.size(); ++i)
         result.push_back({questions_[i].name, valueOf(i), entries_[i].seconds});
     return result;

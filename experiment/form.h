@@ -11,7 +11,7 @@
 namespace obscura {
 
 // What was answered to a question.
-struct Answer {
+struct FormAnswer {
     std::string name;
     // The number of the option from 1, or "unsure"; the number of a scale or slider; the places of
     // ranked images, best first, as "2>1>3"; what was typed; "" for a question left open.
@@ -54,7 +54,7 @@ class Form {
     int changes() const { return changes_; } // how often what its page shows has changed
     bool answered(std::size_t index) const;
     bool complete() const; // so that the page may end
-    std::vector<Answer> answers() const;
+    std::vector<FormAnswer> answers() const;
 
     int optionsOf(const Question& question) const; // "unsure" among them
     const Keys& keys() const { return keys_; }

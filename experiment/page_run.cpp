@@ -21,7 +21,7 @@ std::size_t gated(const std::vector<Phase>& pages) {
 }
 
 // The first question whose answer ends the session; the number of them when none does.
-std::size_t endingIn(const Phase& page, const std::vector<Answer>& answers) {
+std::size_t endingIn(const Phase& page, const std::vector<FormAnswer>& answers) {
     std::size_t index = 0;
     while (index < page.questions.size() && admits(page.questions[index], answers[index].value))
         ++index;

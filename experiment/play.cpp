@@ -51,7 +51,7 @@ bool play(TrialMachine& machine, Observer& observer, const std::function<void()>
 PastTrial remember(const std::vector<Phase>& phases, const Upcoming& trial,
                    const TrialRecord& record) {
     PastTrial past{trial.planned, {}, record.interrupted};
-    for (const Answer& answer : record.answers)
+    for (const FormAnswer& answer : record.answers)
         past.answers[answer.name] = answer.value;
     for (const Phase& phase : phases)
         for (const Question& question : phase.questions)

@@ -204,7 +204,7 @@ PhaseRow phaseRow(const Context& context, const Upcoming& trial, const Phase& ph
 }
 
 AnswerRow answerRow(const Context& context, const TrialKey& key, const Phase& phase,
-                    const Question& question, const Answer& answer) {
+                    const Question& question, const FormAnswer& answer) {
     AnswerRow row;
     row.trial = key;
     row.phase = phase.name;

@@ -1,6 +1,7 @@
 #include "experiment/schedule.h"
 
 #include "base/random.h"
+#include "protocols/reader/balance.h"
 
 #include <fmt/format.h>
 
@@ -76,23 +77,6 @@ LatinSquare williamsSquare(int conditions) {
         square.push_back({forwards.rbegin(), forwards.rend()});
     }
     return square;
-}
-
-int rowsOf(OrderScheme scheme, int conditions) {
-    switch (scheme) {
-    case OrderScheme::thesis:
-    case OrderScheme::latin:
-        return conditions;
-    case OrderScheme::williams:
-        return conditions % 2 == 0 || conditions == 1 ? conditions : 2 * conditions;
-    case OrderScheme::shuffle:
-    case OrderScheme::listed:
-    case OrderScheme::staircase:
-    case OrderScheme::quest:
-    case OrderScheme::information:
-        break;
-    }
-    return 1;
 }
 
 LatinSquare squareOf(OrderScheme scheme, int conditions, std::uint64_t seed, int square,

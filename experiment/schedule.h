@@ -41,9 +41,6 @@ LatinSquare permutedSquare(int conditions, std::uint64_t seed, int square);
 // same rows read backwards follow (Williams 1949). For one condition, one row.
 LatinSquare williamsSquare(int conditions);
 
-// The number of rows of a scheme's squares; 1 where it has none.
-int rowsOf(OrderScheme scheme, int conditions);
-
 // The square by which the slots of `square` see their conditions for the `repeat`th time (both from
 // 1). A repeat has a square of its own, in which no row begins with the condition that the same row
 // ended with before (unless there is only one). Of the scheme `listed`, always the one row. Not for

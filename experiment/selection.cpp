@@ -3,13 +3,13 @@
 #include "base/random.h"
 #include "experiment/adaptive.h"
 #include "experiment/staircase.h"
+#include "protocols/reader/balance.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <set>
 
 namespace obscura {
 
@@ -21,51 +21,10 @@ const Condition& conditionOf(const Protocol& protocol, int condition) {
     return protocol.conditions[static_cast<std::size_t>(condition)];
 }
 
-const std::string& labelOf(const Condition& condition, Likeness likeness) {
-    switch (likeness) {
-    case Likeness::scene:
-        return condition.view;
-    case Likeness::level:
-        return condition.level;
-    case Likeness::condition:
-        break;
-    }
-    return condition.id;
-}
-
 int numberOf(const Protocol& protocol, const std::string& id) {
     const auto at = std::find_if(protocol.conditions.begin(), protocol.conditions.end(),
                                  [&](const Condition& one) { return one.id == id; });
     return static_cast<int>(at - protocol.conditions.begin());
-}
-
-// Those that are for main trials.
-std::vector<int> mainConditions(const Protocol& protocol) {
-    std::set<std::string> others(protocol.ordering.practice.begin(),
-                                 protocol.ordering.practice.end());
-    others.insert(protocol.ordering.catches.begin(), protocol.ordering.catches.end());
-    std::vector<int> main;
-    for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
-        if (!others.contains(protocol.conditions[i].id))
-            main.push_back(static_cast<int>(i));
-    return main;
-}
-
-// The conditions of each block, in the order of the protocol.
-std::vector<std::vector<int>> blocksOf(const Protocol& protocol) {
-    std::vector<std::vector<int>> blocks;
-    std::map<std::string, std::size_t> numbers;
-    for (const int condition : mainConditions(protocol)) {
-        const std::string label =
-            protocol.ordering.blocks
-                ? labelOf(conditionOf(protocol, condition), *protocol.ordering.blocks)
-                : "";
-        const auto [at, isNew] = numbers.emplace(label, blocks.size());
-        if (isNew)
-            blocks.emplace_back();
-        blocks[at->second].push_back(condition);
-    }
-    return blocks;
 }
 
 LatinSquare exchangesOf(const Protocol& protocol) {

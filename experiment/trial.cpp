@@ -216,7 +216,7 @@ void TrialMachine::answer(Form::Effect effect, double time) {
     pending_ |= effect == Form::Effect::changed;
     if (effect != Form::Effect::finished)
         return;
-    const std::vector<Answer> given = form()->answers();
+    const std::vector<FormAnswer> given = form()->answers();
     record_.answers.insert(record_.answers.end(), given.begin(), given.end());
     advance(time);
 }

@@ -45,7 +45,7 @@ struct PhaseRecord {
 
 struct TrialRecord {
     std::vector<PhaseRecord> phases;
-    std::vector<Answer> answers; // in the order of the phases
+    std::vector<FormAnswer> answers; // in the order of the phases
     bool interrupted = false;    // a phase was, from the first image to the last
 };
 

@@ -224,7 +224,7 @@ void check(int items, int observers, std::span<const Choice> choices,
                                     observers - 1, items, c.observer, c.first, c.second));
 }
 
-Observer observerOf(const Triple& at, const Eigen::Matrix3d& covariance) {
+ObserverTraits observerOf(const Triple& at, const Eigen::Matrix3d& covariance) {
     const Triple error = covariance.diagonal().cwiseSqrt();
     const double lapse = distribution(Link::logit, at(2)).below, precision = std::exp(at(1));
     return {{at(0), error(0)},

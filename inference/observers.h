@@ -34,13 +34,13 @@ struct ObserverPriors {
     double logitLapseMean = -3.5, logitLapseSd = 2;          // median 3 %, 95 % below 45 %
 };
 
-struct Observer {
+struct ObserverTraits {
     Estimate bias, lapse, precision; // errors of lapse and precision by the delta method
 };
 
 struct ObserverModel {
     Scale scale; // log worths for an observer without bias and lapses, with precision 1
-    std::vector<Observer> observers;
+    std::vector<ObserverTraits> observers;
     double logPosterior = 0; // up to a constant
 };
 

@@ -200,7 +200,7 @@ std::optional<Estimate> meanOf(std::span<const double> values, double scale) {
     const double average = mean(values), squares = sumOfSquares(values, average);
     const auto n = static_cast<double>(values.size());
     const double error = std::sqrt(squares / (n - 1) / n);
-    if (error < 10 * DBL_EPSILON * std::max(std::abs(average), scale))
+    if (error <= 10 * DBL_EPSILON * std::max(std::abs(average), scale))
         return std::nullopt;
     return Estimate{average, error};
 }

@@ -48,6 +48,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("inference", {"base"});
     room("experiment", {"gl", "image", "inference", "protocols"});
     room("analysis", {"inference", "report", "protocols"});
+    room("validity", {"experiment", "analysis"});
     return table;
 }();
 

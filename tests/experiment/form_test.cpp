@@ -25,7 +25,7 @@ void type(Form& form, const std::string& letters) {
 
 std::vector<std::string> valuesOf(const Form& form) {
     std::vector<std::string> values;
-    for (const Answer& answer : form.answers())
+    for (const FormAnswer& answer : form.answers())
         values.push_back(answer.value);
     return values;
 }

@@ -1,4 +1,5 @@
 #include "experiment/schedule.h"
+#include "protocols/reader/balance.h"
 #include "tests/experiment/order_study.h"
 
 #include <gtest/gtest.h>
@@ -239,6 +240,35 @@ TEST(Schedule, CrossedGoesThroughEachPairOnceAndBothGoRoundFast) {
             }
             EXPECT_EQ(pairs.size(), static_cast<std::size_t>(m * n)) << m << " x " << n;
         }
+}
+
+// What is counted here is what participants see, slot by slot, and knows nothing of the formula.
+TEST(Schedule, IsBalancedAfterTheSlotsThatThePlanSays) {
+    const std::tuple<OrderScheme, int, int> cases[] = {
+        {OrderScheme::williams, 7, 28}, {OrderScheme::williams, 4, 8},
+        {OrderScheme::latin, 7, 14},    {OrderScheme::thesis, 7, 14},
+        {OrderScheme::listed, 5, 2},    {OrderScheme::shuffle, 5, 2}};
+    for (const auto& [scheme, conditions, slots] : cases) {
+        const Protocol study = orderStudy(scheme, conditions, 1);
+        EXPECT_EQ(balancedSlots(study), slots);
+        // How often a condition comes at a position, with one image first and with the other.
+        std::map<std::pair<int, int>, std::map<bool, int>> shown;
+        std::map<int, std::map<bool, int>> firsts;
+        for (int slot = 1; slot <= slots; ++slot) {
+            int position = 0;
+            for (const PlannedTrial& trial : planned(study, slot)) {
+                ++shown[{trial.condition, position++}][trial.reversed()];
+                ++firsts[trial.condition][trial.reversed()];
+            }
+        }
+        for (const auto& [condition, orders] : firsts)
+            EXPECT_EQ(orders.at(false), orders.at(true)) << condition;
+        if (scheme == OrderScheme::listed || scheme == OrderScheme::shuffle)
+            continue;
+        EXPECT_EQ(shown.size(), static_cast<std::size_t>(conditions * conditions));
+        for (const auto& [place, orders] : shown)
+            EXPECT_EQ(orders.at(false), slots / conditions / 2) << place.first;
+    }
 }
 
 } // namespace

@@ -33,7 +33,7 @@ TEST(Observers, AreThePosteriorsMode) {
     const double logPrecisionError[] = {0.4614084, 0.4434565, 0.4404046};
     const double logitLapseError[] = {1.3727885, 1.3903140, 1.5838914};
     for (std::size_t o = 0; o < 3; ++o) {
-        const Observer& found = model->observers[o];
+        const ObserverTraits& found = model->observers[o];
         EXPECT_NEAR(found.bias.value, bias[o], 2e-5);
         EXPECT_NEAR(found.bias.standardError, biasError[o], 2e-4);
         EXPECT_NEAR(found.precision.value, precision[o], 2e-5);
@@ -78,7 +78,7 @@ TEST(Observers, BiasLapsesAndPrecisionAreFound) {
     EXPECT_NEAR(model->observers[3].bias.value, 1.5, 0.6);
     EXPECT_NEAR(model->observers[16].bias.value, -1, 0.6);
     EXPECT_GT(model->observers[8].lapse.value, 0.4);
-    const Observer& dull = model->observers[12]; // lapses explain some of it
+    const ObserverTraits& dull = model->observers[12]; // lapses explain some of it
     EXPECT_LT(dull.precision.value * (1 - dull.lapse.value), 0.55);
     EXPECT_LT(dull.precision.value, 0.9);
     EXPECT_GT(model->observers[16].precision.value, 1.4);
@@ -108,7 +108,7 @@ TEST(Observers, WhoGuessesWeighsLittle) {
 TEST(Observers, WithoutAnswersKeepTheirPriors) {
     const auto model = observerModel(3, 4, small());
     ASSERT_TRUE(model);
-    const Observer& silent = model->observers[3];
+    const ObserverTraits& silent = model->observers[3];
     EXPECT_NEAR(silent.bias.value, 0, 1e-9);
     EXPECT_NEAR(silent.bias.standardError, 0.7, 1e-9);
     EXPECT_NEAR(silent.precision.value, 1, 1e-9);

@@ -239,5 +239,14 @@ TEST(Shares, AreNotTestedWhereNothingVaries) {
     EXPECT_THROW(signedRankTest(std::vector{HUGE_VAL}, 0.5), Error);
 }
 
+// Nobody changed an answer over three levels: slopes of exactly 0, without a t, and p = 1.
+// Found by obscura-validity, where Boost refused a t of 0 / 0.
+TEST(People, WhoAllStandExactlyAtTheCentreHaveNoT) {
+    const std::vector<double> zeros(28, 0.0);
+    EXPECT_FALSE(tTest(zeros, 0));
+    EXPECT_FALSE(tInterval(zeros));
+    EXPECT_EQ(centreTest(zeros, 0).p, 1);
+}
+
 } // namespace
 } // namespace obscura

@@ -1,0 +1,77 @@
+#include "inference/counts.h"
+#include "validity/tallying.h"
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int people = 28, studies = 200;
+
+class Validity : public testing::Test {
+  protected:
+    void SetUp() override { fs::create_directories(folder); }
+    void TearDown() override { fs::remove_all(folder); }
+
+    Outcomes outcomesIn(std::string_view world, int threads = 2) const {
+        for (const World& one : worlds())
+            if (one.name == world)
+                return outcomesOf(simulator, one, studies, people, 1, folder.string(), threads);
+        return {};
+    }
+
+    const StudySimulator simulator{validityProtocol()};
+    const fs::path folder =
+        fs::temp_directory_path() / ("obscura-validity-test." + std::to_string(::getpid()));
+};
+
+// Chance beyond one in a thousand: a rate whose 99.9 % interval has nothing of `low` ... `high`.
+void expectRate(const Rate& rate, double low, double high, const std::string& name) {
+    ASSERT_GT(rate.of, studies / 2) << name;
+    const Interval interval = clopperPearson(rate.hits, rate.of, 0.999);
+    EXPECT_LT(interval.low, high) << name << ": " << rate.hits << " of " << rate.of;
+    EXPECT_GT(interval.high, low) << name << ": " << rate.hits << " of " << rate.of;
+}
+
+TEST_F(Validity, ClaimsAreSeldomMadeWhereThereIsNothing) {
+    for (const char* world : {"guessing", "people differ", "position bias"}) {
+        const Outcomes outcomes = outcomesIn(world);
+        for (const char* claim :
+             {"one condition", "four conditions", "trend over two", "trend over three"})
+            expectRate(outcomes.rejected.at(std::string("claim: ") + claim), 0, 0.055,
+                       std::string(world) + ", " + claim);
+        expectRate(outcomes.anyClaim, 0, 0.055, world);
+    }
+}
+
+// The exact test of 28 votes rejects at 8 : 20 and beyond; R: 2 * pbinom(8, 28, .5).
+TEST_F(Validity, TheExactTestHasItsKnownSize) {
+    const Outcomes outcomes = outcomesIn("guessing");
+    expectRate(outcomes.rejected.at("condition: exact binomial"), 0.0356, 0.0357, "exact");
+}
+
+TEST_F(Validity, IntervalsHoldTheTruth) {
+    const Outcomes outcomes = outcomesIn("effect");
+    for (const auto& [name, rate] : outcomes.covered)
+        expectRate(rate, 0.94, 1, name);
+    expectRate(outcomes.rejected.at("claim: equivalence"), 0, 0.055, "at the margin");
+}
+
+// psychophysics.md 5.1: .750 for a share of .75, 28 people.
+TEST_F(Validity, PowerIsAsPlanned) {
+    expectRate(outcomesIn("effect").rejected.at("claim: one condition"), 0.749, 0.751, "power");
+}
+
+TEST_F(Validity, IsTheSameWithAnyNumberOfThreads) {
+    const Outcomes one = outcomesIn("effect", 1), two = outcomesIn("effect", 2);
+    ASSERT_EQ(one.rejected.size(), two.rejected.size());
+    for (const auto& [name, rate] : one.rejected)
+        EXPECT_EQ(rate.hits, two.rejected.at(name).hits) << name;
+}
+
+} // namespace
+} // namespace obscura
