@@ -202,18 +202,35 @@ std::string trials(const Conduct& c) {
     return text + (list.empty() ? "; nothing left out" : "; left out: " + list);
 }
 
+constexpr std::size_t fewest = 6; // squares or slots that are named one by one
+
 std::string conditionOrder(const Conduct& c) {
     std::string text;
-    for (const auto& [square, sessions] : c.squares)
-        text += fmt::format("square {}: {} sessions in base order, {} exchanged; ", square,
-                            sessions.base, sessions.exchanged);
+    if (c.squares.size() <= fewest)
+        for (const auto& [square, sessions] : c.squares)
+            text += fmt::format("square {}: {} sessions in base order, {} exchanged; ", square,
+                                sessions.base, sessions.exchanged);
+    else {
+        Conduct::Sessions all;
+        for (const auto& [square, sessions] : c.squares) {
+            all.base += sessions.base;
+            all.exchanged += sessions.exchanged;
+        }
+        text = fmt::format("{} squares: {} sessions in base order, {} exchanged; ",
+                           c.squares.size(), all.base, all.exchanged);
+    }
     std::vector<int> shared;
     for (const auto& [slot, sessions] : c.slots)
         if (sessions > 1)
             shared.push_back(slot);
-    return text + (shared.empty()
-                       ? "no slot used twice"
-                       : fmt::format("slots used more than once: {}", fmt::join(shared, ", ")));
+    if (shared.empty())
+        return text + "no slot used twice";
+    const std::size_t named = std::min(shared.size(), fewest);
+    return text +
+           fmt::format("slots used more than once: {}{}",
+                       fmt::join(shared.begin(), shared.begin() + static_cast<int>(named), ", "),
+                       shared.size() > named ? fmt::format(" and {} more", shared.size() - named)
+                                             : "");
 }
 
 std::string imageOrder(const Conduct& c) {

@@ -120,6 +120,9 @@ using Layout = std::array<std::size_t, countColumns.size()>;
 Layout layoutOf(const std::vector<std::string>& header, const std::string& file) {
     Layout layout{};
     const bool own = !header.empty() && header.front() == "source";
+    if (std::find(header.begin(), header.end(), "participant_id") != header.end())
+        throw Error({file, 1, 0, {}}, "expected a table of counted votes, found the rows of "
+                                      "participants; give them without --counts");
     for (std::size_t i = 0; i < countColumns.size(); ++i) {
         std::string name(countColumns[i]);
         if (own && name.starts_with("tech_"))

@@ -46,7 +46,7 @@ struct PhaseRecord {
 struct TrialRecord {
     std::vector<PhaseRecord> phases;
     std::vector<FormAnswer> answers; // in the order of the phases
-    bool interrupted = false;    // a phase was, from the first image to the last
+    bool interrupted = false;        // a phase was, from the first image to the last
 };
 
 // One trial as a machine without a clock, screen or keyboard of its own: it is told what was shown

@@ -22,6 +22,6 @@ double studentP(double statistic, double df);
 double normalP(double statistic);
 
 double studentQuantile(double probability, double df); // 0 < probability < 1
-double probit(double probability); // the normal quantile; 0 < probability < 1
+double probit(double probability);                     // the normal quantile; 0 < probability < 1
 
 } // namespace obscura

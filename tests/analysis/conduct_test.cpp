@@ -71,6 +71,18 @@ TEST(Conduct, TellsPeopleSessionsAndRepeatsApart) {
               "square 1: 3 sessions in base order, 0 exchanged; slots used more than once: 2");
 }
 
+TEST(Conduct, GrowsNotWithTheNumberOfSessions) {
+    std::vector<Response> rows;
+    for (int number = 1; number <= 112; ++number) { // eight squares
+        rows.push_back(sampleResponse(number, "c1", true));
+        rows.push_back(rows.back());
+        rows.back().sessionId = "2";
+    }
+    EXPECT_EQ(fact(conductOf(answersOf(rows)), "Order of conditions"),
+              "8 squares: 112 sessions in base order, 112 exchanged; slots used more than once: 1, "
+              "2, 3, 4, 5, 6 and 106 more");
+}
+
 TEST(Conduct, CountsWhatWentWrongOnTheDisplay) {
     Response late = sampleResponse(1, "c1", true), pressed = sampleResponse(2, "c1", true);
     late.maskFramesShown = 121;

@@ -101,6 +101,12 @@ class ReadCounts : public testing::Test {
     std::filesystem::path file_ = folder_ / "counts.csv";
 };
 
+TEST_F(ReadCounts, KnowsTheRowsOfParticipants) {
+    writeFile(file_, responseHeader() + responseLine(sampleResponse(1, "c1", true)));
+    EXPECT_THAT(errorOf([&] { readCounts(file_); }),
+                testing::HasSubstr("found the rows of participants; give them without --counts"));
+}
+
 TEST_F(ReadCounts, TakesEachLine) {
     const auto tallies =
         read("1,low,dragon,A,B,,18,17\n\"2,x\",high,\"two \"\"words\"\"\",A,B,H1,0,3");
