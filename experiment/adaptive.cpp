@@ -75,7 +75,7 @@ Wins winsOf(const Protocol& protocol, std::span<const int> conditions, const Ite
     return wins;
 }
 
-// Equal gains, as at first, are taken in an order drawn for the batch.
+// Of equals, as at first, that counts which comes first in an order drawn for the batch.
 std::vector<int> batchOf(const PairPosterior& posterior, const Items& items, Random random) {
     std::vector<int> order(items.pairs.size());
     std::iota(order.begin(), order.end(), 0);

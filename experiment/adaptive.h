@@ -17,9 +17,9 @@ namespace obscura {
 std::optional<int> questCondition(const Protocol& protocol, std::span<const int> conditions,
                                   std::span<const PastTrial> past);
 
-// Batches of the pairs that are expected to say most, given the answers before the batch; each in
-// an order drawn for the slot. Images of a scene and level that conditions lead from one to
-// another have a scale of their own, and all scales are measured together.
+// Batches of the pairs that are expected to narrow the scales most, given the answers before the
+// batch; each in an order drawn for the slot. Images of a scene and level that conditions lead from
+// one to another have a scale of their own, and all scales are measured together.
 std::optional<int> informationCondition(const Protocol& protocol, int slot,
                                         std::span<const int> conditions,
                                         std::span<const PastTrial> past);

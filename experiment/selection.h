@@ -24,9 +24,8 @@ std::string_view nameOf(PlannedTrial::Kind kind);
 //
 // First all of the ordering's `practice`. Then main trials: in the order of the slot's row of its
 // square (schedule.h), or as drawn for this slot, or as the answers have it (staircase.h,
-// adaptive.h). After each catchEvery
-// of them a catch trial and after each breakEvery a break, but none after the last. Conditions for
-// practice and catch trials are no part of the rest.
+// adaptive.h). After each catchEvery of them a catch trial and after each breakEvery a break, but
+// none after the last. Conditions for practice and catch trials are no part of the rest.
 //
 // Roles: in the scheme `thesis`, those of all main trials are exchanged, or none; otherwise the
 // base order of condition c in row r goes by the parity of r + c, and the second half of a square's

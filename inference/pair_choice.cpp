@@ -1,6 +1,7 @@
 #include "inference/pair_choice.h"
 
 #include "inference/glm.h"
+#include "inference/link.h"
 #include "inference/tails.h"
 
 #include <algorithm>
@@ -12,8 +13,6 @@
 namespace obscura {
 
 namespace {
-
-double negativeXLogX(double x) { return x > 0 ? -x * std::log(x) : 0; }
 
 // Items that pairs connect have the same root.
 class Sets {
@@ -37,6 +36,23 @@ class Sets {
     int at(int item) const { return parent_[static_cast<std::size_t>(item)]; }
     std::vector<int> parent_;
 };
+
+// In the mean over both answers, the covariance falls by this vector's product with itself. An
+// answer depends on the difference d of the two alone, in units of its noise. Let d have the mean m
+// and the variance v; with t = m / sqrt(1 + v), p = F(t) and f = F'(t) / sqrt(1 + v), its mean
+// after the answer has the variance (v f)^2 / (p (1 - p)) over both answers (Rasmussen and
+// Williams, "Gaussian Processes for Machine Learning", 2006, eq. 3.85). By as much the variance of
+// d falls, and all else by its regression on d.
+Eigen::VectorXd effectOf(const PairPosterior& posterior, const ItemPair& pair) {
+    const auto& [item, other] = pair;
+    const Eigen::VectorXd shared =
+        jodUnit * (posterior.covariance.col(item) - posterior.covariance.col(other));
+    const double spread = std::sqrt(1 + jodUnit * (shared(item) - shared(other)));
+    const double t = jodUnit * (posterior.mean(item) - posterior.mean(other)) / spread;
+    const LogTails tails = logTails(Link::probit, t);
+    const double slope = std::exp(-(t * t + tails.below + tails.above) / 2);
+    return shared * slope / (spread * std::sqrt(2 * std::numbers::pi));
+}
 
 } // namespace
 
@@ -71,44 +87,31 @@ PairPosterior pairPosterior(const Wins& wins, double priorSd) {
     return posterior;
 }
 
-// An answer depends on the difference d of the two alone. What it says of all items is therefore
-// what it says of d: the entropy of the answer less its mean entropy where d is known. The mean
-// over d, a normal curve, is a sum at equal steps, exact to more than ten digits for a curve so
-// smooth.
-double expectedGain(const PairPosterior& posterior, int item, int other) {
-    constexpr double reach = 7; // standard deviations
-    constexpr int steps = 56;
-    const auto& covariance = posterior.covariance;
-    const double mean = jodUnit * (posterior.mean(item) - posterior.mean(other));
-    const double sd = jodUnit * std::sqrt(covariance(item, item) + covariance(other, other) -
-                                          2 * covariance(item, other));
-    double success = 0, noise = 0, weights = 0;
-    for (int i = -steps; i <= steps; ++i) {
-        const double z = reach * i / steps, weight = std::exp(-z * z / 2);
-        const Distribution at = distribution(Link::probit, mean + sd * z);
-        weights += weight;
-        success += weight * at.below;
-        noise += weight * (negativeXLogX(at.below) + negativeXLogX(at.above));
-    }
-    success /= weights;
-    return negativeXLogX(success) + negativeXLogX(1 - success) - noise / weights;
+double expectedReduction(const PairPosterior& posterior, int item, int other) {
+    return effectOf(posterior, {item, other}).squaredNorm();
 }
 
-std::vector<int> nextBatch(const PairPosterior& posterior, std::span<const ItemPair> pairs) {
-    std::vector<double> gains;
-    for (const auto& [item, other] : pairs)
-        gains.push_back(expectedGain(posterior, item, other));
-    std::vector<int> order(pairs.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](int one, int other) {
-        return gains[static_cast<std::size_t>(one)] > gains[static_cast<std::size_t>(other)];
-    });
-    Sets sets(posterior.mean.size()); // Kruskal, Proc. Am. Math. Soc. 7 (1956) 48
-    std::erase_if(order, [&](int index) {
-        const auto& [item, other] = pairs[static_cast<std::size_t>(index)];
-        return !sets.join(item, other);
-    });
-    return order;
+std::vector<int> nextBatch(PairPosterior posterior, std::span<const ItemPair> pairs) {
+    Sets sets(posterior.mean.size());
+    const auto size = static_cast<std::size_t>(
+        std::count_if(pairs.begin(), pairs.end(),
+                      [&](const ItemPair& pair) { return sets.join(pair.first, pair.second); }));
+    std::vector<int> batch, left(pairs.size());
+    std::iota(left.begin(), left.end(), 0);
+    while (batch.size() < size) {
+        std::vector<double> reductions;
+        for (const int index : left) {
+            const auto& [item, other] = pairs[static_cast<std::size_t>(index)];
+            reductions.push_back(expectedReduction(posterior, item, other));
+        }
+        const auto best = left.begin() + (std::max_element(reductions.begin(), reductions.end()) -
+                                          reductions.begin());
+        const Eigen::VectorXd effect = effectOf(posterior, pairs[static_cast<std::size_t>(*best)]);
+        posterior.covariance -= effect * effect.transpose();
+        batch.push_back(*best);
+        left.erase(best);
+    }
+    return batch;
 }
 
 double widestInterval(const PairPosterior& posterior, std::span<const ItemPair> pairs,

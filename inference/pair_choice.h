@@ -8,12 +8,13 @@
 
 namespace obscura {
 
-// Which pairs to compare next, so that answers say most: after ASAP (Mikhailiuk, Wilmot,
-// Perez-Ortiz, Yue, Mantiuk, "Active Sampling for Pairwise Comparisons via Approximate Message
-// Passing and Information Gain Maximization", arXiv:2004.05691). As there, a batch is the spanning
-// tree of the greatest gains, so that all items remain connected and one batch can be shown in any
-// order. Departures: the posterior is Laplace's and not by message passing, and the gain is that of
-// the exact posterior and not of its Gaussian approximation.
+// Which pairs to compare next, so that answers narrow the scales most: after ASAP (Mikhailiuk,
+// Wilmot, Perez-Ortiz, Yue, Mantiuk, "Active Sampling for Pairwise Comparisons via Approximate
+// Message Passing and Information Gain Maximization", arXiv:2004.05691), with its batches of n - 1
+// and all answers in each posterior. Departures, of which docs/measurement.md has the effect: what
+// is to fall is the mean variance of values, which is Bayesian A-optimality (Chaloner, Verdinelli,
+// Statistical Science 10 (1995) 273), and not the entropy; a batch is built pair by pair and need
+// not be a tree; the posterior is Laplace's and not by message passing.
 
 // Standard deviation of the prior of each item's value, in JOD: that of scales of some ten JOD.
 inline constexpr double pairPriorSd = 3;
@@ -26,16 +27,17 @@ struct PairPosterior {
 };
 PairPosterior pairPosterior(const Wins& wins, double priorSd = pairPriorSd);
 
-// By how much an answer is expected to change the posterior: the Kullback-Leibler divergence from
-// before to after, in nats, over both answers; at most log 2. Items differ.
-double expectedGain(const PairPosterior& posterior, int item, int other);
+// By how much an answer is expected to lessen the sum of the variances of all items, in JOD^2, were
+// the posterior the normal curve. Items differ.
+double expectedReduction(const PairPosterior& posterior, int item, int other);
 
 using ItemPair = std::pair<int, int>;
 
-// A spanning tree of the greatest expected gain, of each of the scales that the pairs connect:
-// indices of `pairs`, the greatest gain first, of equal gains that listed first. Its size is always
-// the number of items that the pairs name, less that of the scales: n - 1 for one.
-std::vector<int> nextBatch(const PairPosterior& posterior, std::span<const ItemPair> pairs);
+// Indices of `pairs`, each once: the pair of the greatest expected reduction, then that of the
+// greatest once the covariance is what the first is expected to leave, and so on; of equals the one
+// listed first. As many as a spanning tree has of each of the scales that the pairs connect: the
+// number of items that the pairs name, less that of the scales; n - 1 for one.
+std::vector<int> nextBatch(PairPosterior posterior, std::span<const ItemPair> pairs);
 
 // The widest of the intervals of all items, each of its distance from the mean of the items of its
 // scale, in JOD.

@@ -171,14 +171,15 @@ QuestEstimate QuestPlus::estimate(QuestParameter parameter, double confidence) c
         mass[static_cast<std::size_t>(indexOf(parameter, i))] += posterior_[i];
     const std::vector<double> borders = bordersOf(values);
     QuestEstimate estimate;
-    double square = 0;
+    double mean = 0, square = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const double middle = (borders[i] + borders[i + 1]) / 2,
                      width = borders[i + 1] - borders[i];
-        estimate.mean += mass[i] * middle;
+        mean += mass[i] * middle;
         square += mass[i] * (middle * middle + width * width / 12);
     }
-    estimate.sd = std::sqrt(std::max(0.0, square - estimate.mean * estimate.mean));
+    estimate.sd = std::sqrt(std::max(0.0, square - mean * mean));
+    estimate.median = quantileOf(borders, mass, 0.5);
     estimate.interval = {quantileOf(borders, mass, (1 - confidence) / 2),
                          quantileOf(borders, mass, (1 + confidence) / 2)};
     return estimate;

@@ -30,9 +30,10 @@ QuestGrid questGrid(const std::vector<double>& levels, double guess);
 enum class QuestParameter { threshold, slope, guess, lapse };
 
 // Of the Weibull's threshold all is in log10 units. Each value of the grid stands for all that are
-// nearer to it than to its neighbours, and all of these are equally likely.
+// nearer to it than to its neighbours, and all of these are equally likely. The median is less
+// biased than the mean where slopes are not known (docs/measurement.md).
 struct QuestEstimate {
-    double mean = 0, sd = 0;
+    double median = 0, sd = 0;
     Interval interval; // with equal tails
 
     double width() const { return interval.high - interval.low; }

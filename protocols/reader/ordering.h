@@ -28,7 +28,7 @@ struct Staircase {
     std::string answer = "choice"; // that the condition's `correct` is compared with
 };
 
-// QUEST+ (inference/quest_plus.h), and pairs by expected information (inference/pair_choice.h).
+// QUEST+ (inference/quest_plus.h), and pairs by expected variance (inference/pair_choice.h).
 struct Adaptive {
     int trials = 100; // main trials that end the session at the latest
     // That of the widest 95 % interval, at which it ends earlier: of quest the threshold's, in

@@ -147,12 +147,24 @@ std::size_t reached(const Protocol& protocol, std::span<const PastTrial> batch) 
     return known.size();
 }
 
-TEST(InformationOrder, EachBatchConnectsAllImages) {
+TEST(InformationOrder, TheFirstBatchConnectsAllImages) {
     const Protocol protocol = pairsStudy();
-    const auto history = session(protocol, 3, people(1, 1));
+    for (int slot = 1; slot <= 8; ++slot) {
+        const auto history = session(protocol, slot, people(1, 1));
+        EXPECT_EQ(reached(protocol, std::span(history).first(4)), 5u) << slot;
+    }
+}
+
+TEST(InformationOrder, NoPairComesTwiceInABatch) {
+    const Protocol protocol = pairsStudy();
+    const auto history = session(protocol, 3, people(4, 1));
     ASSERT_EQ(history.size(), 48u);
-    for (std::size_t i = 0; i < history.size(); i += 4)
-        EXPECT_EQ(reached(protocol, std::span(history).subspan(i, 4)), 5u) << i;
+    for (std::size_t i = 0; i < history.size(); i += 4) {
+        std::set<int> shown;
+        for (const PastTrial& past : std::span(history).subspan(i, 4))
+            shown.insert(past.trial.condition);
+        EXPECT_EQ(shown.size(), 4u) << i;
+    }
 }
 
 // Neighbours are hard to tell apart, and those far apart are certain after a few answers.
@@ -168,12 +180,13 @@ TEST(InformationOrder, PairsAlikeComeMoreOftenThanCertainOnes) {
             EXPECT_GT(counts[near], 2 * counts[far]) << near << " " << far;
 }
 
-// Batches go by the answers before them, and not by those within.
+// Batches go by the answers before them, and not by those within. All answers of the first batch
+// the other way round mirror the scale, and lead to the same second one.
 TEST(InformationOrder, AnswersDecideTheNextBatchAlone) {
     const Protocol protocol = pairsStudy();
     const auto one = session(protocol, 1, people(3, 1));
     auto other = one;
-    for (PastTrial& past : std::span(other).first(8))
+    for (PastTrial& past : std::span(other).first(4))
         past.answers["choice"] = past.answers["choice"] == "a" ? "b" : "a";
     const auto asked = [&](std::size_t trials) {
         return next(protocol, 1, std::span(other).first(trials));
@@ -221,19 +234,17 @@ TEST(InformationOrder, NotSureIsHalfAVoteForEach) {
     EXPECT_EQ(end(""), 400u) << "no answer narrows nothing";
 }
 
-// Two levels are two scales: a batch has a tree of each.
+// Two levels are two scales, that share each batch; the first has a tree of each.
 TEST(InformationOrder, EachLevelHasAScale) {
     const Protocol protocol = pairsStudy({"low", "high"});
     const auto history = session(protocol, 1, people(1, 1));
     ASSERT_EQ(history.size(), 48u);
-    for (std::size_t i = 0; i < history.size(); i += 8) {
-        std::map<std::string, std::vector<PastTrial>> batch;
-        for (const PastTrial& past : std::span(history).subspan(i, 8))
-            batch[protocol.conditions[static_cast<std::size_t>(past.trial.condition)].level]
-                .push_back(past);
-        EXPECT_EQ(reached(protocol, batch["low"]), 5u);
-        EXPECT_EQ(reached(protocol, batch["high"]), 5u);
-    }
+    std::map<std::string, std::vector<PastTrial>> shown;
+    for (const PastTrial& past : std::span(history).first(8))
+        shown[protocol.conditions[static_cast<std::size_t>(past.trial.condition)].level].push_back(
+            past);
+    EXPECT_EQ(reached(protocol, shown["low"]), 5u);
+    EXPECT_EQ(reached(protocol, shown["high"]), 5u);
 }
 
 } // namespace

@@ -1,0 +1,139 @@
+#include "analysis/scales/psychometric_figure.h"
+
+#include "report/gnuplot.h"
+#include "report/paper_figure.h"
+
+#include "inference/counts.h"
+#include "inference/psychometric.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+using fmt::format;
+
+double seenLevel(const Ladder& ladder, Eigen::Index i) {
+    return ladder.isFalling ? -ladder.data.level(i) : ladder.data.level(i);
+}
+
+// Of all labels beside each other, inches.
+double labelWidth(const Ladder& ladder) {
+    double width = 0;
+    for (const std::string& label : ladder.labels)
+        width += textWidth(label) + 0.1;
+    return ladder.isOrder ? width : 0;
+}
+
+Panel curvePanel(const ScaleResult& result, std::size_t index, std::string& blocks) {
+    const auto& [ladder, model, parameters] = *result.curve;
+    Panel panel{panelTitle(result.group), {}, 1.9};
+    double least = 1e300, most = -1e300;
+    for (Eigen::Index i = 0; i < ladder.data.level.size(); ++i) {
+        least = std::min(least, seenLevel(ladder, i));
+        most = std::max(most, seenLevel(ladder, i));
+    }
+    const double margin = 0.06 * (most - least);
+    const double left = least - margin, right = most + margin;
+    std::string points, curve;
+    for (Eigen::Index i = 0; i < ladder.data.level.size(); ++i) {
+        const double trials = ladder.data.trials(i), successes = ladder.data.successes(i);
+        const Interval interval =
+            wilson(static_cast<std::int64_t>(successes), static_cast<std::int64_t>(trials));
+        points +=
+            format("{} {} {} {} {}\n", seenLevel(ladder, i), successes / trials, interval.low,
+                   interval.high, 0.5 + 0.7 * std::sqrt(trials / ladder.data.trials.maxCoeff()));
+    }
+    for (int i = 0; i <= 120; ++i) {
+        const double x = left + (right - left) * i / 120;
+        curve += format("{} {}\n", x, probability(model, parameters, ladder.isFalling ? -x : x));
+    }
+    const ScaleItem& threshold = result.items.front();
+    const double half = probability(model, parameters, parameters.threshold);
+    const double low = std::max(left, threshold.interval.low.value_or(left)),
+                 high = std::min(right, threshold.interval.high.value_or(right));
+    const std::string name = format("panel{}", index);
+    blocks +=
+        plot::block(name + "points", points) + plot::block(name + "curve", curve) +
+        plot::block(name + "threshold", format("{} {} {} {}\n", threshold.value, half, low, high));
+    panel.script = format("set xrange [{}:{}]\n", left, right);
+    if (ladder.isOrder) {
+        std::vector<std::string> ticks;
+        for (Eigen::Index i = 0; i < ladder.data.level.size(); ++i)
+            ticks.push_back(format("{} {}", gnuplotText(ladder.labels[static_cast<std::size_t>(i)]),
+                                   seenLevel(ladder, i)));
+        panel.script +=
+            format("set xtics nomirror out{} ({})\n",
+                   labelWidth(ladder) > 2.5 ? " rotate by -35" : "", fmt::join(ticks, ", "));
+    } else {
+        panel.script += format("set xtics nomirror out {}\n", tickStep(right - left));
+    }
+    const bool isRight = threshold.value > (left + right) / 2; // so that the label has room
+    panel.script += format(
+        "set arrow from first {0}, graph 0 to first {0}, first {1} nohead linewidth 1 dashtype 2 "
+        "linecolor rgb '#D55E00'\n"
+        "set label {2} at first {0}, graph 0 {3} offset {4}, 0.7 font ',7' textcolor rgb "
+        "'#B33A00'\n",
+        threshold.value, half,
+        gnuplotText(format("{:.0f} %: {}{:.3g} ({:.3g} to {:.3g})", 100 * half,
+                           ladder.isOrder ? "step " : "", threshold.value, low, high)),
+        isRight ? "right" : "left", isRight ? -0.7 : 0.7);
+    panel.script +=
+        format("plot {} with lines linewidth 1 dashtype 3 linecolor rgb '{}' notitle, \\\n"
+               "  ${}curve with lines linewidth 2 linecolor rgb '#0072B2' notitle, \\\n"
+               "  ${}threshold using 1:2:3:4 with xerrorbars linewidth 3 pointtype 7 pointsize 0.1 "
+               "linecolor rgb '#D55E00' notitle, \\\n"
+               "  ${}points using 1:2:3:4 with yerrorbars linewidth 1 pointtype 7 pointsize 0.1 "
+               "linecolor rgb '#000000' notitle, \\\n"
+               "  ${}points using 1:2:5 with points pointtype 7 pointsize variable linecolor rgb "
+               "'#000000' notitle\n",
+               model.guess, scaleGrey, name, name, name, name);
+    return panel;
+}
+
+} // namespace
+
+StudyFigure psychometricFigure(const ScaleKind& kind, const ScaleResults& results,
+                               const std::string& name, const std::string& stamp) {
+    std::string blocks;
+    std::vector<Panel> panels;
+    StudyFigure figure;
+    figure.numbers.columns = {{"Where"},     {"Step"},     {"Level", true},
+                              {"Yes", true}, {"Of", true}, {"Share", true}};
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        panels.push_back(curvePanel(*results[i], i, blocks));
+        const Ladder& ladder = results[i]->curve->ladder;
+        for (Eigen::Index k = 0; k < ladder.data.level.size(); ++k)
+            figure.numbers.rows.push_back(
+                {panelTitle(results[i]->group), ladder.labels[static_cast<std::size_t>(k)],
+                 format("{:.4g}", seenLevel(ladder, k)), format("{}", ladder.data.successes(k)),
+                 format("{}", ladder.data.trials(k)),
+                 format("{:.3f}", ladder.data.successes(k) / ladder.data.trials(k))});
+    }
+    const Ladder& first = results.front()->curve->ladder;
+    const std::string begin =
+        format("set bars 0\nset yrange [0:1.02]\nset ytics nomirror out 0.25\nset ylabel {} offset "
+               "1, 0\nset xlabel {} offset 0, 0.3\nunset key\n",
+               gnuplotText("share of " + first.success),
+               gnuplotText(first.isOrder ? "step of the ladder" : first.axis));
+    PanelLayout layout;
+    layout.nameWidth = 0.62;
+    layout.rightWidth = 0.15;
+    layout.below = 0.5;
+    for (const ScaleResult* result : results)
+        if (labelWidth(result->curve->ladder) > 2.5)
+            layout.below = 0.9;
+    const PanelFigure made = panelFigure(blocks, begin, panels, layout, stamp);
+    figure.drawing = {name, std::string(kind.heading), made.script, made.width, made.height};
+    figure.caption = format(
+        "{} ({}): share of {} with Wilson's 95 % intervals, larger for more answers; the fitted "
+        "curve; in orange its threshold with the 95 % interval ({}). Dotted: what guessing gives.",
+        kind.heading, kind.source, first.success, results.front()->intervals);
+    return figure;
+}
+
+} // namespace obscura
