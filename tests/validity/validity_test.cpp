@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int people = 28, studies = 200;
+constexpr int studies = 200;
 
 class Validity : public testing::Test {
   protected:
@@ -20,11 +20,11 @@ class Validity : public testing::Test {
     Outcomes outcomesIn(std::string_view world, int threads = 2) const {
         for (const World& one : worlds())
             if (one.name == world)
-                return outcomesOf(simulator, one, studies, people, 1, folder.string(), threads);
+                return outcomesOf(StudySimulator(one.protocol()), one, one.studies(studies), 1,
+                                  folder.string(), threads);
         return {};
     }
 
-    const StudySimulator simulator{validityProtocol()};
     const fs::path folder =
         fs::temp_directory_path() / ("obscura-validity-test." + std::to_string(::getpid()));
 };
