@@ -75,9 +75,13 @@ TEST(Gee, CorrectedCovarianceIsManclAndDeRouens) {
 // Without the person whom a coefficient rests on there is none.
 TEST(Gee, ACoefficientOfOnePersonHasNoCorrectedCovariance) {
     Study study = unbalancedPeople();
-    for (Index i = 0; i < study.data.design.rows(); ++i)
-        study.data.design(i, 1) = study.person[static_cast<std::size_t>(i)] == 3 && i % 2;
-    EXPECT_FALSE(fitGee(study.data, study.person).corrected);
+    for (Index i = 0; i < study.data.design.rows(); ++i) {
+        study.data.design(i, 1) = study.person[static_cast<std::size_t>(i)] == 5;
+        study.data.successes(i) = static_cast<double>(i % 2);
+    }
+    const GeeFit fit = fitGee(study.data, study.person);
+    EXPECT_FALSE(fit.separated);
+    EXPECT_FALSE(fit.corrected);
 }
 
 // With one answer each there is nothing to correlate: the logistic fit, its robust covariance.

@@ -71,7 +71,7 @@ TEST_F(Validity, PowerIsAsPlanned) {
 
 // By the sandwich and chi-square alone they reject in 12 to 14 % and 7 % of studies.
 TEST_F(Validity, WaldTestsOfFewPeopleKeepTheirPromise) {
-    const Outcomes outcomes = outcomesIn("people differ");
+    const Outcomes outcomes = outcomesIn("people differ", 2, 3 * studies);
     for (const char* test : {"test gee, conditions", "test gee, position"})
         expectRate(outcomes.rejected.at(test), 0, 0.055, test);
 }
