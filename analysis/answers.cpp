@@ -251,9 +251,24 @@ void checkDeclared(const Declared& declared, const fs::path& folder,
                                 declared.sha256));
 }
 
+// The folders of studies in which the data lie, each once: a study's folder, the folder data in it,
+// or a file in that.
+std::vector<fs::path> studyFolders(std::span<const fs::path> data) {
+    std::vector<fs::path> folders;
+    for (const fs::path& given : data) {
+        fs::path folder = fs::canonical(given);
+        for (int up = 0; up < 2 && !fs::exists(folder / "sessions"); ++up)
+            folder = folder.parent_path();
+        if (fs::exists(folder / "sessions") &&
+            std::find(folders.begin(), folders.end(), folder) == folders.end())
+            folders.push_back(folder);
+    }
+    return folders;
+}
+
 void declare(std::span<const fs::path> data, bool mixed, Answers& answers) {
     bool known = false;
-    for (const fs::path& folder : data) {
+    for (const fs::path& folder : studyFolders(data)) {
         for (SlotRecord& slot : readSlots(folder / "sessions" / "ledger.jsonl"))
             answers.slots.push_back(std::move(slot));
         const auto declared = readDeclared(folder);

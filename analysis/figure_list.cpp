@@ -11,7 +11,11 @@ namespace obscura {
 namespace {
 
 using FiguresOf = std::vector<StudyFigure> (*)(const Findings&);
-constexpr FiguresOf kinds[] = {sharesFigures, scaleFigures, positionFigures, powerFigures,
+std::vector<StudyFigure> usableScales(const Findings& findings) {
+    return isUnusable(findings) ? std::vector<StudyFigure>() : scaleFigures(findings);
+}
+
+constexpr FiguresOf kinds[] = {sharesFigures, usableScales, positionFigures, powerFigures,
                                flowFigures,   timesFigures, timingFigures};
 
 } // namespace

@@ -379,6 +379,15 @@ std::vector<std::string> cautionsOf(const Findings& findings) {
     return cautions;
 }
 
+bool isUnusable(const Findings& findings) {
+    int voted = 0, unusable = 0;
+    for (const auto& verdict : verdictsOf(findings.tallies)) {
+        voted += verdict.has_value();
+        unusable += verdict && verdict->outcome == Verdict::Outcome::unusable;
+    }
+    return voted > 0 && voted == unusable;
+}
+
 std::vector<std::string> summaryOf(const Findings& findings) {
     std::vector<std::string> sentences;
     if (findings.tallies.empty()) {
@@ -394,6 +403,8 @@ std::vector<std::string> summaryOf(const Findings& findings) {
           unusable(findings), exclusionsOf(findings), repeatedVotes(findings), missing(findings)})
         if (!sentence.empty())
             sentences.push_back(sentence);
+    if (isUnusable(findings))
+        return sentences;
     for (const std::string& sentence : scaleSentences(findings.scales))
         sentences.push_back(sentence);
     if (findings.people)

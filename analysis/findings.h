@@ -51,6 +51,10 @@ std::string stampOf(const Findings& findings);
 // cannot be told apart from the picture. Stands above everything and in each line of the CSV.
 std::vector<std::string> cautionsOf(const Findings& findings);
 
+// Whether there are votes, but no condition whose votes can be used: then nothing else that is made
+// of them means anything, and nobody is told of it in words or pictures.
+bool isUnusable(const Findings& findings);
+
 // One sentence for each claim, in the order of the protocol; then a few plain ones that claim no
 // more than the numbers do.
 std::vector<std::string> summaryOf(const Findings& findings);

@@ -134,9 +134,10 @@ Table scaleTable(const std::vector<Scaled>& scales) {
 std::string scalesText(const std::vector<Scaled>& scales) {
     std::string text;
     for (const Scaled& one : scales) {
-        text += fmt::format("{} ({}), {}; {} answers of {} people\n", one.kind->heading,
-                            one.kind->source, placeOf(one.result.group), one.result.group.answers,
-                            one.result.group.people);
+        const int people = one.result.group.people; // 0 where they are not told apart
+        text += fmt::format("{} ({}), {}; {} answers{}\n", one.kind->heading, one.kind->source,
+                            placeOf(one.result.group), one.result.group.answers,
+                            people > 0 ? fmt::format(" of {} people", people) : "");
         Table table = scaleTable({one});
         for (auto& row : table.rows) // the heading says these
             row.erase(row.begin(), row.begin() + 2);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace obscura {
 
@@ -35,6 +36,13 @@ std::string orderText(const ScaleResult& result) {
                                                         : " > ";
     }
     return order;
+}
+
+// Whether the threshold lies beyond the steps that people saw.
+bool isOutside(const ScaleResult& result) {
+    const Ladder& ladder = result.curve->ladder;
+    const double level = result.curve->parameters.threshold;
+    return level < ladder.data.level.minCoeff() || level > ladder.data.level.maxCoeff();
 }
 
 // Whether the excluded answers would make a difference that somebody would report.
@@ -99,29 +107,59 @@ std::vector<std::string> scaleRemarks(const ScaleResult& result) {
     return remarks;
 }
 
+namespace {
+
+// Scales of one unit make one sentence, however many scenes and levels they are of.
+void addOrders(const ScaleFindings& scales, std::vector<std::string>& sentences) {
+    std::vector<std::string> beginnings;
+    std::map<std::string, std::string> orders; // by beginning
+    for (const auto& [kind, result] : scales.all) {
+        if (!kind->isLeading || result.curve || result.items.empty())
+            continue;
+        std::string beginning =
+            fmt::format("By {}{} (\"<\" where neighbours differ at .05, corrected by Holm)",
+                        result.isOrdered ? "level, in " : "rising ", result.unit);
+        std::string& order = orders[beginning];
+        if (order.empty())
+            beginnings.push_back(std::move(beginning));
+        order += fmt::format("{}{}: {}", order.empty() ? "" : "; ", placeOf(result.group),
+                             orderText(result));
+    }
+    for (const std::string& beginning : beginnings)
+        sentences.push_back(fmt::format("{} — {}.", beginning, orders[beginning]));
+}
+
+void addThresholds(const ScaleFindings& scales, std::vector<std::string>& sentences) {
+    int curves = 0, without = 0;
+    for (const auto& [kind, result] : scales.all) {
+        if (!kind->isLeading || !result.curve || result.items.empty())
+            continue;
+        ++curves;
+        if (isOutside(result)) {
+            ++without;
+            continue;
+        }
+        sentences.push_back(fmt::format("{}: {} (threshold {}, 95 % interval {}).",
+                                        placeOf(result.group), result.notes.front(),
+                                        spelt(result.items[0].value, decimalsOf(result)),
+                                        spelt(result.items[0].interval, decimalsOf(result))));
+    }
+    if (without > 0)
+        sentences.push_back(fmt::format("{} of {} psychometric functions have no threshold within "
+                                        "the steps that were shown.",
+                                        without, curves));
+}
+
+} // namespace
+
 std::vector<std::string> scaleSentences(const ScaleFindings& scales) {
     std::vector<std::string> sentences;
-    for (const auto& [kind, result] : scales.all) {
-        if (!kind->isLeading)
-            continue;
-        if (result.items.empty()) {
+    addOrders(scales, sentences);
+    addThresholds(scales, sentences);
+    for (const auto& [kind, result] : scales.all)
+        if (kind->isLeading && result.items.empty())
             sentences.push_back(fmt::format("{}, {}: no scale, for {}.", kind->heading,
                                             placeOf(result.group), fmt::join(result.notes, "; ")));
-            continue;
-        }
-        if (result.curve) {
-            sentences.push_back(fmt::format("{}: {} (threshold {}, 95 % interval {}).",
-                                            placeOf(result.group), result.notes.front(),
-                                            spelt(result.items[0].value, decimalsOf(result)),
-                                            spelt(result.items[0].interval, decimalsOf(result))));
-            continue;
-        }
-        sentences.push_back(fmt::format("{}, by {}{}: {} (\"<\" where neighbours differ at "
-                                        ".05, corrected by Holm).",
-                                        placeOf(result.group),
-                                        result.isOrdered ? "level, in " : "rising ", result.unit,
-                                        orderText(result)));
-    }
     sentences.insert(sentences.end(), scales.notes.begin(), scales.notes.end());
     if (!scales.whole.empty())
         sentences.push_back(fmt::format("Some answers do not count, for reasons named below; {}",

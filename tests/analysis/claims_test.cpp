@@ -207,6 +207,23 @@ TEST(Families, AreThoseOfTheClaimsAndTheRestIsExploratory) {
     EXPECT_EQ(study.tallies[2].family, "");
 }
 
+// Everybody chooses the second picture: nothing that is made of such votes is told.
+TEST(Findings, OfPositionsAloneSayNothingElse) {
+    Answers answers;
+    answers.files = 1;
+    for (int person = 1; person <= 28; ++person)
+        for (const char* condition : {"c1", "c2", "c3"}) {
+            Vote row(sampleResponse(person, condition, true));
+            row.choseB = row.aFirst;
+            answers.counted.push_back({row, Symbol("x.csv"), 2});
+        }
+    const Findings findings = findingsOf(answers, std::nullopt);
+    EXPECT_TRUE(isUnusable(findings));
+    EXPECT_THAT(summaryOf(findings), Contains(HasSubstr("3 of 3 conditions: position decides")));
+    EXPECT_THAT(summaryOf(findings), Not(Contains(HasSubstr("camps"))));
+    EXPECT_THAT(summaryOf(findings), Not(Contains(HasSubstr("decision times"))));
+}
+
 // Ten people twice each: as votes 16 of 20 (p = .0118), as people 6 shares of 1 and 4 of 1/2.
 // R 4.2.2: t.test(c(rep(1, 6), rep(.5, 4)), mu = .5)
 TEST(Findings, JudgeRepeatedVotesByPeople) {

@@ -192,6 +192,11 @@ TEST_F(Program, TestsTheClaimsThatTheDesignDeclares) {
     EXPECT_THAT(outcome.output, HasSubstr("No claim names these conditions, which are "
                                           "exploratory: c1"));
     EXPECT_THAT(readFile(out() / "results.json"), HasSubstr("\"outcome\": \"supported\""));
+    // The same of the rows alone, wherever they are named.
+    const auto rows = folder_ / "study/data";
+    for (const std::string& given :
+         {rows.string(), (rows / "study-sample_subject-P01_session-1_data.csv").string()})
+        EXPECT_THAT(run("'" + given + "'").output, HasSubstr("\u201cb is better\u201d: the data"));
 }
 
 TEST_F(Program, StampsSimulatedData) {
