@@ -63,33 +63,61 @@ class Equations {
         return std::clamp(products / pairs / scale, -0.999 / std::max(largest - 1, 1.0), 0.999);
     }
 
-    // The inverse of the correlation matrix of m answers is (I - alpha J / (1 + (m - 1) alpha)) /
-    // (1 - alpha), J all ones, so sums over a person suffice.
     void add(double alpha, VectorXd& score, MatrixXd& information, MatrixXd& spread) const {
         const Index n = design_.cols();
         score.setZero(n);
         information.setZero(n, n);
         spread.setZero(n, n);
         for (std::size_t i = 0; i + 1 < order_.first.size(); ++i) {
-            const Index size = order_.first[i + 1] - order_.first[i];
-            VectorXd own = VectorXd::Zero(n), total = VectorXd::Zero(n);
-            double residualSum = 0;
-            for (Index j = order_.first[i]; j < order_.first[i + 1]; ++j) {
-                const auto x = design_.row(row(j)).transpose();
-                own += residuals_[row(j)] * x;
-                total += x;
-                residualSum += residuals_[row(j)];
-                information += x * x.transpose() / (1 - alpha);
-            }
-            const double shared = alpha / (1 + (static_cast<double>(size) - 1) * alpha);
-            own = ((own - shared * residualSum * total) / (1 - alpha)).eval();
-            information -= shared / (1 - alpha) * total * total.transpose();
-            score += own;
-            spread += own * own.transpose();
+            const Part own = partOf(i, alpha);
+            score += own.score;
+            information += own.information;
+            spread += own.score * own.score.transpose();
         }
     }
 
+    // Mancl and DeRouen's sandwich, of D'V^-1 (I - H)^-1 r of each person: the inverse of all
+    // information times that is the inverse of the other people's information times D'V^-1 r.
+    std::optional<MatrixXd> corrected(double alpha, const MatrixXd& information) const {
+        MatrixXd covariance = MatrixXd::Zero(information.rows(), information.cols());
+        for (std::size_t i = 0; i + 1 < order_.first.size(); ++i) {
+            const Part own = partOf(i, alpha);
+            const Eigen::LDLT<MatrixXd> others(information - own.information);
+            if (!(others.vectorD().minCoeff() > 1e-10 * information.diagonal().maxCoeff()))
+                return std::nullopt;
+            const VectorXd change = others.solve(own.score);
+            covariance += change * change.transpose();
+        }
+        return covariance;
+    }
+
   private:
+    struct Part {
+        VectorXd score;
+        MatrixXd information;
+    };
+
+    // What person i adds. The inverse of the correlation matrix of m answers is
+    // (I - alpha J / (1 + (m - 1) alpha)) / (1 - alpha), J all ones, so sums over a person suffice.
+    Part partOf(std::size_t i, double alpha) const {
+        const Index n = design_.cols();
+        const Index size = order_.first[i + 1] - order_.first[i];
+        Part own{VectorXd::Zero(n), MatrixXd::Zero(n, n)};
+        VectorXd total = VectorXd::Zero(n);
+        double residualSum = 0;
+        for (Index j = order_.first[i]; j < order_.first[i + 1]; ++j) {
+            const auto x = design_.row(row(j)).transpose();
+            own.score += residuals_[row(j)] * x;
+            total += x;
+            residualSum += residuals_[row(j)];
+            own.information += x * x.transpose();
+        }
+        const double shared = alpha / (1 + (static_cast<double>(size) - 1) * alpha);
+        own.score = (own.score - shared * residualSum * total) / (1 - alpha);
+        own.information = (own.information - shared * total * total.transpose()) / (1 - alpha);
+        return own;
+    }
+
     Index row(Index position) const { return order_.rows[static_cast<std::size_t>(position)]; }
 
     const BinomialData& data_;
@@ -143,7 +171,10 @@ GeeFit fitGee(const BinomialData& data, std::span<const int> person, Link link) 
         fit.covariance = clusterCovariance(data, start, link, person);
         fit.correlation = 0;
         fit.scale = 1;
+        equations.standardise(fit.coefficients);
+        equations.add(0, score, information, spread);
     }
+    fit.corrected = equations.corrected(fit.correlation, information);
     return fit;
 }
 

@@ -2,6 +2,7 @@
 
 #include <boost/math/distributions/binomial.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
@@ -40,6 +41,10 @@ double chiSquareP(double statistic, double df) {
 
 double studentP(double statistic, double df) {
     return 2 * cdf(complement(boost::math::students_t(df), std::abs(statistic)));
+}
+
+double fisherFP(double statistic, double df, double denominatorDf) {
+    return cdf(complement(boost::math::fisher_f(df, denominatorDf), statistic));
 }
 
 double studentQuantile(double probability, double df) {

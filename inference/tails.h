@@ -21,6 +21,9 @@ double chiSquareP(double statistic, double df = 1);
 double studentP(double statistic, double df);
 double normalP(double statistic);
 
+// P(F >= statistic) of Fisher's F; both df > 0; statistic >= 0.
+double fisherFP(double statistic, double df, double denominatorDf);
+
 double studentQuantile(double probability, double df); // 0 < probability < 1
 double probit(double probability);                     // the normal quantile; 0 < probability < 1
 

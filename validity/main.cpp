@@ -19,18 +19,18 @@ namespace {
 namespace fs = std::filesystem;
 
 // What is planned for people who choose as those of a world do.
-std::map<std::string, double> plannedPower(const World& world, int people, int studies) {
-    Protocol protocol = validityProtocol();
+std::map<std::string, double> plannedPower(const World& world, int studies) {
+    Protocol protocol = world.protocol();
     for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
         protocol.conditions[i].simulated.chooseB = world.truth.shares[i];
     PlanOptions options;
-    options.participants = people;
+    options.participants = world.people;
     options.spread = world.truth.spread;
     options.studies = studies;
     const Plan plan = planOf(protocol, options);
     std::map<std::string, double> planned;
     for (const StatedPower& stated : plan.stated)
-        for (std::size_t i = 0; stated.people == people && i < plan.tests.size(); ++i)
+        for (std::size_t i = 0; stated.people == world.people && i < plan.tests.size(); ++i)
             planned[plan.tests[i].claim.name] = stated.supported[i].share;
     return planned;
 }
@@ -38,10 +38,10 @@ std::map<std::string, double> plannedPower(const World& world, int people, int s
 int run(int argc, char** argv) {
     CLI::App app("Simulated studies with known answers, through the presenter and the analysis.",
                  "obscura-validity");
-    int studies = 10000, people = 28, threads = 0;
+    int studies = 10000, threads = 0;
     std::uint64_t seed = 1;
     fs::path out = "validity.md", folder = "/dev/shm";
-    app.add_option("--studies", studies, "In each state of the world")
+    app.add_option("--studies", studies, "In each state of the world; of scales a tenth")
         ->option_text("N=10000")
         ->check(CLI::Range(1, 10000000));
     app.add_option("--seed", seed)->option_text("N=1");
@@ -54,17 +54,19 @@ int run(int argc, char** argv) {
 
     folder /= fmt::format("obscura-validity.{}", ProcessId::current().text());
     fs::create_directories(folder);
-    const StudySimulator simulator(validityProtocol());
     const std::vector<World> all = worlds();
     std::vector<Outcomes> outcomes;
+    std::map<std::string, double> planned;
     for (const World& world : all) {
         Progress progress(std::string(world.name), 1);
-        outcomes.push_back(outcomesOf(simulator, world, studies, people, seed, folder.string(),
-                                      threads, [&](double done) { progress.update(done); }));
+        outcomes.push_back(outcomesOf(StudySimulator(world.protocol()), world,
+                                      world.studies(studies), seed, folder.string(), threads,
+                                      [&](double done) { progress.update(done); }));
+        if (world.name == "effect")
+            planned = plannedPower(world, 2000);
     }
     fs::remove_all(folder);
-    writeFile(out, validityPage(all, outcomes, plannedPower(all.back(), people, 2000), studies,
-                                people, seed));
+    writeFile(out, validityPage(all, outcomes, planned, studies, seed));
     fmt::print("written: {}\n", out.string());
     return 0;
 }

@@ -28,14 +28,14 @@ struct Outcomes {
 // Simulates, writes each study's CSV into `folder` (best in memory, such as /dev/shm), reads it as
 // the analysis does, and tests. Study i is the same on every machine and with any number of
 // threads.
-Outcomes outcomesOf(const StudySimulator& simulator, const World& world, int studies, int people,
+Outcomes outcomesOf(const StudySimulator& simulator, const World& world, int studies,
                     std::uint64_t seed, const std::string& folder, int threads = 0,
                     const std::function<void(double)>& progress = {});
 
 // The tables of all worlds in Markdown. `planned`: of each claim, the power that obscura-analysis
 // plan says for the world "effect".
 std::string validityPage(const std::vector<World>& worlds, const std::vector<Outcomes>& outcomes,
-                         const std::map<std::string, double>& planned, int studies, int people,
+                         const std::map<std::string, double>& planned, int studies,
                          std::uint64_t seed);
 
 } // namespace obscura

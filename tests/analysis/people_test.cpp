@@ -219,10 +219,14 @@ TEST_F(TrialLevel, ModelsAreThoseOfR) {
     const Findings findings = study.findings();
     EXPECT_NEAR(testOf(findings, "logistic").result.test->p, 0.031187, 5e-7);
     EXPECT_THAT(testOf(findings, "logistic", 1).result.about, HasSubstr("by 1.73")); // exp(.546958)
-    EXPECT_NEAR(*testOf(findings, "gee", 1).result.test->statistic, 0.5554 / 0.2818, 2e-3);
-    EXPECT_THAT(testOf(findings, "gee", 1).result.note, HasSubstr("of 28 people the robust error"));
+    // Wald's tests by the R code of gee_test.cpp: pf(13.90811933849490 / 6, 6, 20, lower = FALSE)
+    EXPECT_NEAR(testOf(findings, "gee").result.test->p, 0.0731582701923505, 1e-9);
+    EXPECT_THAT(testOf(findings, "gee").result.note, HasSubstr("F with 6 and 20 degrees"));
+    EXPECT_NEAR(*testOf(findings, "gee", 1).result.test->statistic, 1.82977328934757, 1e-8);
+    EXPECT_NEAR(testOf(findings, "gee", 1).result.test->p, 0.0822314268221295, 1e-9);
     EXPECT_NEAR(*testOf(findings, "mixed").result.test->statistic, 14.3765, 1e-3);
     EXPECT_NEAR(testOf(findings, "mixed").result.test->p, 0.02570, 5e-6);
+    EXPECT_THAT(testOf(findings, "mixed").result.note, HasSubstr("of 28 people this p is a"));
     EXPECT_NEAR(testOf(findings, "position-conditions").result.test->p, 0.076368, 5e-7);
     EXPECT_NEAR(testOf(findings, "position-people").result.test->p, 0.106702, 5e-7);
     EXPECT_THAT(testOf(findings, "people").result.about, HasSubstr("1.30 times"));

@@ -45,6 +45,45 @@ TEST(Gee, UnbalancedStudyEqualsGeepack) {
     EXPECT_NEAR(fit.correlation, 0.1086590014495, 1e-10);
 }
 
+// Mancl and DeRouen's formula by its matrices, in R 4.2.2 from the fits of geepack above, alpha
+// their correlation; with alpha = 0 and glm's fit it is clubSandwich 0.5.8's CR3 (to 4e-7).
+//   parts <- lapply(split(seq_along(y), id), function(r) {
+//     A <- mu[r] * (1 - mu[r]); n <- length(r)
+//     R <- matrix(alpha, n, n); diag(R) <- 1
+//     list(D = X[r, , drop = FALSE] * A, e = (y - mu)[r],
+//          W = solve(diag(sqrt(A), n) %*% R %*% diag(sqrt(A), n))) })
+//   M <- solve(Reduce(`+`, lapply(parts, function(p) t(p$D) %*% p$W %*% p$D)))
+//   B <- Reduce(`+`, lapply(parts, function(p) {
+//     H <- p$D %*% M %*% t(p$D) %*% p$W
+//     s <- t(p$D) %*% p$W %*% solve(diag(nrow(H)) - H, p$e); s %*% t(s) }))
+//   M %*% B %*% M
+TEST(Gee, CorrectedCovarianceIsManclAndDeRouens) {
+    const Study study = trials28x7({1, 2, 3, 4, 5, 6, 7});
+    GeeFit fit = fitGee(study.data, study.person);
+    ASSERT_TRUE(fit.corrected);
+    EXPECT_NEAR(std::sqrt((*fit.corrected)(0, 0)), 0.4271405115407, 1e-9);
+    EXPECT_NEAR(std::sqrt((*fit.corrected)(5, 5)), 0.3820027111135, 1e-9);
+    EXPECT_NEAR(std::sqrt((*fit.corrected)(7, 7)), 0.3035296120119, 1e-9);
+    const Study unbalanced = unbalancedPeople();
+    fit = fitGee(unbalanced.data, unbalanced.person);
+    ASSERT_TRUE(fit.corrected);
+    EXPECT_NEAR((*fit.corrected)(0, 0), 0.08214869061072, 1e-9);
+    EXPECT_NEAR((*fit.corrected)(0, 1), -0.01114234774214, 1e-9);
+    EXPECT_NEAR((*fit.corrected)(1, 1), 0.03826447603763, 1e-9);
+}
+
+// Without the person whom a coefficient rests on there is none.
+TEST(Gee, ACoefficientOfOnePersonHasNoCorrectedCovariance) {
+    Study study = unbalancedPeople();
+    for (Index i = 0; i < study.data.design.rows(); ++i) {
+        study.data.design(i, 1) = study.person[static_cast<std::size_t>(i)] == 5;
+        study.data.successes(i) = static_cast<double>(i % 2);
+    }
+    const GeeFit fit = fitGee(study.data, study.person);
+    EXPECT_FALSE(fit.separated);
+    EXPECT_FALSE(fit.corrected);
+}
+
 // With one answer each there is nothing to correlate: the logistic fit, its robust covariance.
 TEST(Gee, OneAnswerEachIsTheLogisticFit) {
     const Study study = unbalancedPeople();
