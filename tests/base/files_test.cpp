@@ -130,7 +130,9 @@ TEST(Files, NobodyElseRemovesAnything) {
         {"command.cpp", 1},  // the folder in which this run was writing an export
         {"files.cpp", 3},    // unfinished files of gone processes, and its own
         {"generate.cpp", 1}, // the unfinished manifest that this run has written
-        {"report.cpp", 1}    // a choice that obscura-bench choose wrote
+        {"main.cpp", 1},     // the folder of obscura-validity's own process in memory
+        {"report.cpp", 1},   // a choice that obscura-bench choose wrote
+        {"tallying.cpp", 1}  // a simulated study's CSV in that folder
     };
     std::map<std::string, int> found;
     const fs::path source = OBSCURA_SOURCE;
