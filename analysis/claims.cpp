@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -410,9 +411,12 @@ std::string answerOf(const ClaimResult& result) {
 
 std::string groundsOf(const ClaimResult& result) {
     std::string text = foundOf(result);
+    std::string method = result.method;
+    if (!method.empty())
+        method[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(method[0])));
     if (result.test)
         text += fmt::format(
-            "{}{}{}, {}, {} after Holm.", result.method,
+            "{}{}{}, {}, {} after Holm.", method,
             result.test->df ? fmt::format(" = {}", readable(*result.test->statistic)) : "",
             result.people > 0 ? fmt::format(", {} people", result.people) : "",
             pText(result.test->p), pText(result.holm));
