@@ -12,7 +12,7 @@
 #include <exception>
 #include <functional>
 #include <map>
-#include <set>
+#include <unordered_set>
 
 namespace obscura {
 
@@ -142,10 +142,15 @@ int columnNumber(std::string_view name) {
 template <auto field>
 void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column, int number) {
     std::map<std::pair<std::uint32_t, std::string>, const Answer*> seen;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> known; // study and name
+    std::unordered_set<std::uint64_t> known; // study and name
+    Symbol aboveStudy, above; // no study is "", and most rows have the name of the row above
     for (const Answer& answer : answers) {
         const Symbol study = answer.row.studyId, name = answer.row.*field;
-        if (!known.insert({study.number(), name.number()}).second)
+        if (name == above && study == aboveStudy)
+            continue;
+        aboveStudy = study;
+        above = name;
+        if (!known.insert(std::uint64_t{study.number()} << 32 | name.number()).second)
             continue;
         const auto [first, isNew] = seen.try_emplace({study.number(), folded(name)}, &answer);
         if (const Answer& other = *first->second; other.row.*field != name)

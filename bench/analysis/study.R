@@ -1,11 +1,8 @@
-# Rscript study.R FILE: what obscura-analysis does with the rows of a study of pairs, as one would write it
-# in R: read, check, and the tests of conditions, complexity and position. data.table reads where it is
-# installed, base R elsewhere. No report, no figures, no times, no scales.
-library(stats)
-reader <- if (requireNamespace("data.table", quietly = TRUE))
-  function(file) as.data.frame(data.table::fread(file)) else read.csv
-cat("read by", if (requireNamespace("data.table", quietly = TRUE)) "data.table::fread" else "read.csv", "\n")
-d <- reader(commandArgs(TRUE)[1])
+# Rscript study.R FILE READER: a part of what obscura-analysis does with the rows of a study of pairs, as one
+# would write it in R: read (READER is read.csv or fread, data.table's), check, and the tests of conditions,
+# complexity and position. No check of cells, no times, scales, models, figures or report.
+arguments <- commandArgs(TRUE)
+d <- if (arguments[2] == "fread") as.data.frame(data.table::fread(arguments[1])) else read.csv(arguments[1])
 
 stopifnot(!anyDuplicated(d$row_id),
           !anyDuplicated(d[c("study_id", "participant_id", "session_id", "trial_kind", "condition_id",
