@@ -12,7 +12,7 @@
 #include <exception>
 #include <functional>
 #include <map>
-#include <set>
+#include <unordered_set>
 
 namespace obscura {
 
@@ -142,10 +142,15 @@ int columnNumber(std::string_view name) {
 template <auto field>
 void requireOneSpelling(const std::vector<Answer>& answers, std::string_view column, int number) {
     std::map<std::pair<std::uint32_t, std::string>, const Answer*> seen;
-    std::set<std::pair<std::uint32_t, std::uint32_t>> known; // study and name
+    std::unordered_set<std::uint64_t> known; // study and name
+    Symbol aboveStudy, above; // no study is "", and most rows have the name of the row above
     for (const Answer& answer : answers) {
         const Symbol study = answer.row.studyId, name = answer.row.*field;
-        if (!known.insert({study.number(), name.number()}).second)
+        if (name == above && study == aboveStudy)
+            continue;
+        aboveStudy = study;
+        above = name;
+        if (!known.insert(std::uint64_t{study.number()} << 32 | name.number()).second)
             continue;
         const auto [first, isNew] = seen.try_emplace({study.number(), folded(name)}, &answer);
         if (const Answer& other = *first->second; other.row.*field != name)
@@ -299,37 +304,105 @@ struct FileRows {
     std::exception_ptr error;
 };
 
-FileRows readFileRows(const fs::path& path, bool lenient) {
+FileRows readFileRows(const fs::path& path, bool lenient, const FilePart& part = {}) {
     FileRows file;
     const Symbol name(path.string());
     try {
-        file.read = eachResponse(path, lenient, [&](const Response& row, int line) {
-            const Vote above = file.rows.empty() ? Vote() : file.rows.back().row;
-            file.rows.push_back({Vote(row, above), name, line});
-        });
+        file.read = eachResponse(
+            path, lenient,
+            [&](const Response& row, int line) {
+                const Vote above = file.rows.empty() ? Vote() : file.rows.back().row;
+                file.rows.push_back({Vote(row, above), name, line});
+            },
+            part);
     } catch (...) {
         file.error = std::current_exception();
     }
     return file;
 }
 
-// Several files at once, some hundreds together; of their errors the first is thrown.
-Answers readAll(const std::vector<fs::path>& files, bool lenient) {
-    constexpr std::size_t together = 512;
-    Answers answers;
-    for (std::size_t begin = 0; begin < files.size(); begin += together) {
-        std::vector<FileRows> read(std::min(together, files.size() - begin));
-        forEachInParallel(
-            read.size(), [&](std::size_t i) { read[i] = readFileRows(files[begin + i], lenient); });
-        for (FileRows& file : read) {
-            if (file.error)
-                std::rethrow_exception(file.error);
-            answers.counted.insert(answers.counted.end(), file.rows.begin(), file.rows.end());
-            answers.bad.insert(answers.bad.end(), file.read.bad.begin(), file.read.bad.end());
-            ++answers.files;
-            answers.earlierFiles += file.read.version < Response().schemaVersion;
+// What is read at once: a small file, or a part of a large one.
+struct Piece {
+    const fs::path* file;
+    FilePart part;
+};
+
+std::vector<Piece> piecesOf(std::span<const fs::path> files) {
+    constexpr std::int64_t most = std::int64_t{1} << 23; // bytes
+    std::vector<Piece> pieces;
+    for (const fs::path& file : files) {
+        std::error_code unknown; // is told when the file is read
+        const auto size = static_cast<std::int64_t>(fs::file_size(file, unknown));
+        pieces.push_back({&file, {}});
+        for (std::int64_t begin = most; !unknown && begin < size; begin += most) {
+            pieces.back().part.end = begin;
+            pieces.push_back({&file, {.begin = begin}});
         }
     }
+    return pieces;
+}
+
+// The pieces are the file: none has an error, and each ends where the next begins.
+bool areWhole(std::span<const FileRows> pieces) {
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (pieces[i].error || (i > 0 && pieces[i].read.read.begin != pieces[i - 1].read.read.end))
+            return false;
+    return true;
+}
+
+// The rows of one file; frees them in the pieces.
+void add(std::span<FileRows> pieces, Answers& answers) {
+    int above = 0; // lines
+    for (FileRows& piece : pieces) {
+        if (piece.error)
+            std::rethrow_exception(piece.error);
+        for (Answer& answer : piece.rows) {
+            answer.line += above;
+            answers.counted.push_back(answer);
+        }
+        for (BadRow& bad : piece.read.bad) {
+            bad.place.line += above;
+            answers.bad.push_back(std::move(bad));
+        }
+        above += piece.read.lines;
+        piece.rows = {};
+    }
+    ++answers.files;
+    answers.earlierFiles += pieces.front().read.version < Response().schemaVersion;
+}
+
+// Several files at once, and parts of large ones; of their errors the first is thrown. A file of
+// several parts is read again, from its begin, if there is an error (its line is not known) or if a
+// part began within a cell of several lines.
+void readTogether(std::span<const fs::path> files, bool lenient, Answers& answers) {
+    const std::vector<Piece> pieces = piecesOf(files);
+    std::vector<FileRows> read(pieces.size());
+    forEachInParallel(read.size(), [&](std::size_t i) {
+        read[i] = readFileRows(*pieces[i].file, lenient, pieces[i].part);
+    });
+    std::size_t rows = answers.counted.size();
+    for (const FileRows& piece : read)
+        rows += piece.rows.size();
+    if (answers.counted.empty())
+        answers.counted.reserve(rows);
+    for (std::size_t begin = 0, end = 0; begin < read.size(); begin = end) {
+        while (end < read.size() && pieces[end].file == pieces[begin].file)
+            ++end;
+        std::span<FileRows> file = std::span(read).subspan(begin, end - begin);
+        if (file.size() > 1 && !areWhole(file)) {
+            file.front() = readFileRows(*pieces[begin].file, lenient);
+            file = file.first(1);
+        }
+        add(file, answers);
+    }
+}
+
+Answers readAll(std::span<const fs::path> files, bool lenient) {
+    constexpr std::size_t together = 512; // so that few rows are held twice
+    Answers answers;
+    for (std::size_t begin = 0; begin < files.size(); begin += together)
+        readTogether(files.subspan(begin, std::min(together, files.size() - begin)), lenient,
+                     answers);
     return answers;
 }
 

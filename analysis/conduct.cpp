@@ -1,5 +1,6 @@
 #include "analysis/conduct.h"
 
+#include "base/parallel.h"
 #include "base/percentile.h"
 
 #include "inference/counts.h"
@@ -7,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -18,8 +20,7 @@ namespace obscura {
 
 namespace {
 
-template <auto field>
-Spread spreadOf(const std::vector<Answer>& answers) {
+Spread spreadOf(const std::vector<Answer>& answers, double Vote::*field) {
     std::vector<double> values;
     values.reserve(answers.size());
     for (const Answer& answer : answers)
@@ -141,7 +142,8 @@ std::string utcOf(std::int64_t seconds) {
 
 Spread spread(const std::vector<double>& values) {
     assert(!values.empty());
-    return {percentile(values, 0.05), percentile(values, 0.5), percentile(values, 0.95)};
+    const std::vector<double> found = percentiles(values, std::array{0.05, 0.5, 0.95});
+    return {found[0], found[1], found[2]};
 }
 
 Conduct conductOf(const Answers& answers) {
@@ -157,10 +159,14 @@ Conduct conductOf(const Answers& answers) {
     conduct.flow = flowOf(answers, conduct.participants, conduct.sessions);
     countTrials(counted, conduct);
     noteProvenance(counted, conduct);
-    conduct.maskMs = spreadOf<&Vote::maskMs>(counted);
-    conduct.view1Ms = spreadOf<&Vote::view1Ms>(counted);
-    conduct.view2Ms = spreadOf<&Vote::view2Ms>(counted);
-    conduct.decisionMs = spreadOf<&Vote::decisionRtMs>(counted);
+    const std::pair<Spread*, double Vote::*> spreads[] = {
+        {&conduct.maskMs, &Vote::maskMs},
+        {&conduct.view1Ms, &Vote::view1Ms},
+        {&conduct.view2Ms, &Vote::view2Ms},
+        {&conduct.decisionMs, &Vote::decisionRtMs}};
+    forEachInParallel(std::size(spreads), [&](std::size_t i) {
+        *spreads[i].first = spreadOf(counted, spreads[i].second);
+    });
     std::tie(conduct.slowestHz, conduct.fastestHz) = rangeOf<&Vote::refreshHz>(counted);
     const auto [first, last] = rangeOf<&Vote::wallTime>(counted);
     conduct.firstTime = utcOf(first);

@@ -3,12 +3,15 @@
 #include "analysis/people_words.h"
 #include "analysis/scales/scale_words.h"
 #include "analysis/verdict.h"
+#include "base/parallel.h"
 
 #include "inference/paired.h"
 #include "inference/tails.h"
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <exception>
+#include <functional>
 #include <map>
 #include <tuple>
 
@@ -308,6 +311,21 @@ std::vector<Tally> judgeable(std::vector<Tally> tallies, const std::vector<Answe
     return tallies;
 }
 
+// Independent steps; of their errors the first is thrown.
+void atOnce(const std::vector<std::function<void()>>& steps) {
+    std::vector<std::exception_ptr> errors(steps.size());
+    forEachInParallel(steps.size(), [&](std::size_t i) {
+        try {
+            steps[i]();
+        } catch (...) {
+            errors[i] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& error : errors)
+        if (error)
+            std::rethrow_exception(error);
+}
+
 } // namespace
 
 Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
@@ -321,10 +339,12 @@ Findings findingsOf(const Answers& answers, std::optional<Manifest> stimuli,
     findings.conduct = conductOf(answers);
     findings.tallies = judgeable(tallyVotes(answers.counted, manifest, order), answers.counted,
                                  *findings.conduct, declared);
-    findings.tests = testsOf(studyData(findings.tallies, &answers.counted));
-    findings.people = peopleOf(answers.counted, findings.tallies);
-    findings.claims = testClaims(declared, findings.tallies, &answers.counted);
-    findings.scales = scaleFindings(findings.tallies, &answers.counted, manifest);
+    atOnce({
+        [&] { findings.tests = testsOf(studyData(findings.tallies, &answers.counted)); },
+        [&] { findings.people = peopleOf(answers.counted, findings.tallies); },
+        [&] { findings.claims = testClaims(declared, findings.tallies, &answers.counted); },
+        [&] { findings.scales = scaleFindings(findings.tallies, &answers.counted, manifest); },
+    });
     findings.exclusions = answers.excluded.reasons;
     if (answers.excluded.rows.empty())
         return findings;

@@ -61,8 +61,13 @@ Votes repeatsOf(const std::vector<Answer>& answers, Rows rows) {
 
 int sessionsOf(const std::vector<Answer>& answers, Rows rows) {
     std::set<std::uint32_t> sessions;
-    for (const Eigen::Index row : rows)
-        sessions.insert(answers[static_cast<std::size_t>(row)].row.sessionId.number());
+    std::optional<std::uint32_t> above; // most rows have the session of the row above
+    for (const Eigen::Index row : rows) {
+        const std::uint32_t session = answers[static_cast<std::size_t>(row)].row.sessionId.number();
+        if (session != above)
+            sessions.insert(session);
+        above = session;
+    }
     return static_cast<int>(sessions.size());
 }
 

@@ -83,6 +83,7 @@ void CsvReader::skipMark() {
 void CsvReader::fill() {
     constexpr std::size_t block = std::size_t{1} << 16;
     buffer_.erase(0, at_);
+    start_ += static_cast<std::int64_t>(at_);
     at_ = 0;
     const std::size_t had = buffer_.size(), wanted = std::max(block, had);
     buffer_.resize(had + wanted);
@@ -92,6 +93,22 @@ void CsvReader::fill() {
     buffer_.resize(had + count);
     text_ = buffer_;
     whole_ = count < wanted;
+}
+
+void CsvReader::goTo(std::int64_t offset) {
+    if (::fseeko(file_.get(), offset - 1, SEEK_SET) != 0)
+        throw Error({path_, 0, 0, {}}, fmt::format("cannot be read: {}", std::strerror(errno)));
+    start_ = offset - 1;
+    buffer_.clear();
+    at_ = 0;
+    line_ = 1;
+    for (std::size_t end = std::string_view::npos; end == std::string_view::npos;) {
+        fill();
+        end = text_.find('\n');
+        at_ = end == text_.npos ? text_.size() : end + 1;
+        if (whole_)
+            return;
+    }
 }
 
 bool CsvReader::next(CsvRecord& record) {
@@ -124,7 +141,8 @@ void CsvReader::split(CsvRecord& record) {
         if (cells == record.cells.size())
             record.cells.emplace_back();
         record.cells[cells].clear();
-        record.fault = cell(record.cells[cells++]);
+        if (const std::string_view fault = cell(record.cells[cells++]); !fault.empty())
+            record.fault = fault;
     } while (record.fault.empty() && take(","));
     record.cells.resize(cells);
     record.ended = take("\n") || take("\r\n");
@@ -150,11 +168,13 @@ bool CsvReader::take(std::string_view next) {
 }
 
 // Both return a fault, or "".
-std::string CsvReader::cell(std::string& value) {
+std::string_view CsvReader::cell(std::string& value) {
     if (take("\""))
         return quotedCell(value);
     const auto isEnd = [&](std::size_t at) {
         const char c = text_[at];
+        if (c > ',') // nearly all
+            return false;
         return c == ',' || c == '\n' || c == '"' ||
                (c == '\r' && (at + 1 == text_.size() || text_[at + 1] == '\n'));
     };
@@ -171,10 +191,10 @@ std::string CsvReader::cell(std::string& value) {
     }
     return !atEnd() && text_[at_] == '"'
                ? "a quote stands inside a cell that does not begin with one"
-               : "";
+               : std::string_view();
 }
 
-std::string CsvReader::quotedCell(std::string& value) {
+std::string_view CsvReader::quotedCell(std::string& value) {
     quoted_ = true;
     while (!atEnd()) {
         const std::size_t quote = std::min(text_.find('"', at_), text_.size());

@@ -31,6 +31,12 @@ class CsvReader {
     // The next record, in the memory of the one before; false at the end.
     bool next(CsvRecord& record);
 
+    // In a file, goes to what follows the first line feed from byte `offset` - 1 on (offset > 0),
+    // as if a record began there, and counts lines from 1 again.
+    void goTo(std::int64_t offset);
+    std::int64_t offset() const { return start_ + static_cast<std::int64_t>(at_); }
+    int line() const { return line_; } // of the next record
+
   private:
     struct Close {
         void operator()(std::FILE* file) const;
@@ -41,14 +47,15 @@ class CsvReader {
     void split(CsvRecord& record);
     bool atEnd();
     bool take(std::string_view next);
-    std::string cell(std::string& value);
-    std::string quotedCell(std::string& value);
+    std::string_view cell(std::string& value);
+    std::string_view quotedCell(std::string& value);
     bool endFaulty(std::size_t start);
 
     std::string path_;
     std::unique_ptr<std::FILE, Close> file_;
     std::string buffer_; // of the file
     std::string_view text_;
+    std::int64_t start_ = 0; // of the text, in the file
     std::size_t at_ = 0;
     int line_ = 1;
     bool whole_ = false;   // the text goes to its end

@@ -29,8 +29,12 @@ double medianDistance(std::span<const double> values, double median) {
 
 double trimmed(std::span<const double> values) {
     Values sorted = copyOf(values);
-    std::sort(sorted.begin(), sorted.end());
     const auto cut = static_cast<std::size_t>(0.1 * static_cast<double>(sorted.size()));
+    const auto low = sorted.begin() + static_cast<std::ptrdiff_t>(cut);
+    const auto high = sorted.end() - static_cast<std::ptrdiff_t>(cut);
+    std::nth_element(sorted.begin(), low, sorted.end());
+    if (cut > 0)
+        std::nth_element(low, high, sorted.end());
     return mean(std::span(sorted).subspan(cut, sorted.size() - 2 * cut));
 }
 
@@ -82,6 +86,8 @@ std::vector<double> quantiles(std::span<const double> values, std::span<const do
     checkFinite(values);
     if (values.empty())
         return {};
+    if (std::is_sorted(shares.begin(), shares.end()))
+        return percentiles(copyOf(values), shares);
     Values result;
     for (const double share : shares)
         result.push_back(percentile(copyOf(values), share));

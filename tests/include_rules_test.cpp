@@ -46,6 +46,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("stimuli", {"matching"});
     room("bench", {"matching", "report"});
     room("inference", {"base"});
+    room("bench/analysis", {"inference"});
     room("experiment", {"gl", "image", "inference", "protocols"});
     room("analysis", {"inference", "report", "protocols"});
     room("validity", {"experiment", "analysis"});

@@ -217,7 +217,7 @@ class RowParser {
   public:
     RowParser(CsvRecord header, int version, std::string file)
         : header_(std::move(header)), list_(responseColumns(version)), version_(version),
-          file_(std::move(file)) {
+          file_(std::move(file)), isAsAbove_(list_.size()) {
         checkHeader(header_, namesOf(list_), file_);
     }
 
@@ -241,12 +241,14 @@ class RowParser {
                           "the header stands here again, as where two files were joined; remove "
                           "the line"};
         for (std::size_t i = 0; i < list_.size(); ++i)
-            if (!isAsAbove(record, i))
+            isAsAbove_[i] = known_ && record.cells[i] == above_[i];
+        for (std::size_t i = 0; i < list_.size(); ++i)
+            if (!isAsAbove_[i])
                 if (const std::string fault = textFault(list_[i], record.cells[i]); !fault.empty())
                     return BadRow{place(record, i), fault};
         for (const bool check : {false, true}) // every cell first: a check may read several
             for (std::size_t i = 0; i < list_.size(); ++i)
-                if (!(check ? passes(record, i) : reads(record, i)))
+                if (!(check ? passes(i) : reads(record, i)))
                     return BadRow{place(record, i),
                                   fmt::format("expected {}, found \"{}\"{}", list_[i].expected,
                                               record.cells[i], cellHint(record.cells[i]))};
@@ -260,15 +262,11 @@ class RowParser {
     Place place(const CsvRecord& record, std::size_t column) const {
         return {file_, record.line, static_cast<int>(column) + 1, std::string(list_[column].name)};
     }
-    bool isAsAbove(const CsvRecord& record, std::size_t column) const {
-        return known_ && record.cells[column] == above_[column];
-    }
     bool reads(const CsvRecord& record, std::size_t column) {
-        return isAsAbove(record, column) ||
-               parseCell(response_, list_[column], record.cells[column]);
+        return isAsAbove_[column] || parseCell(response_, list_[column], record.cells[column]);
     }
-    bool passes(const CsvRecord& record, std::size_t column) const {
-        return (isAsAbove(record, column) && !list_[column].readsOthers) ||
+    bool passes(std::size_t column) const {
+        return (isAsAbove_[column] && !list_[column].readsOthers) ||
                list_[column].accepts(response_);
     }
 
@@ -279,6 +277,7 @@ class RowParser {
     Response response_;
     std::vector<std::string> above_; // cells of the row above, if
     bool known_ = false;             // it was well
+    std::vector<char> isAsAbove_;    // of each cell of this row
 };
 
 } // namespace
@@ -307,7 +306,8 @@ std::string responseLine(const Response& response) {
 }
 
 ResponseRows eachResponse(const std::filesystem::path& path, bool lenient,
-                          const std::function<void(const Response&, int line)>& take) {
+                          const std::function<void(const Response&, int line)>& take,
+                          const FilePart& part) {
     const std::string file = path.string();
     ResponseRows result;
     const auto reject = [&](const Place& place, const std::string& message) {
@@ -330,7 +330,11 @@ ResponseRows eachResponse(const std::filesystem::path& path, bool lenient,
                     "expected the rows of participants, found a table of counted votes; give it as "
                     "--counts FILE");
     RowParser parser(record, result.version, file);
-    while (reader.next(record)) {
+    if (part.begin > 0) {
+        reader.goTo(part.begin);
+        result.read.begin = reader.offset();
+    }
+    while (reader.offset() < part.end && reader.next(record)) {
         if (isBlank(record))
             continue;
         const int line = record.line;
@@ -339,6 +343,8 @@ ResponseRows eachResponse(const std::filesystem::path& path, bool lenient,
         else
             take(parser.response(), line);
     }
+    result.read.end = reader.offset();
+    result.lines = reader.line() - 1;
     return result;
 }
 

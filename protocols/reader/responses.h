@@ -2,8 +2,10 @@
 
 #include "base/error.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -72,9 +74,18 @@ struct BadRow {
     std::string message;
 };
 
+// A part of a file: the records that begin in it, where each line feed of the first is taken for
+// the end of a record.
+struct FilePart {
+    std::int64_t begin = 0; // a byte
+    std::int64_t end = std::numeric_limits<std::int64_t>::max();
+};
+
 struct ResponseRows {
     int version = 2; // of the file's list of columns
     std::vector<BadRow> bad;
+    FilePart read; // whole records
+    int lines = 0; // of these
 };
 struct ResponseFile : ResponseRows {
     std::vector<Response> rows;
@@ -90,8 +101,11 @@ struct ResponseFile : ResponseRows {
 ResponseFile readResponses(const std::filesystem::path& path, bool lenient);
 
 // The same, but each row is given to `take`, in the memory of the one before: for files of any
-// size.
+// size. Parts can be read at once, for their columns are those of the file's header. What they hold
+// is what the file holds if each was read (`read`) up to where the next begins; else a cell goes
+// over several lines there. Lines of a part that does not begin the file count from its own first.
 ResponseRows eachResponse(const std::filesystem::path& path, bool lenient,
-                          const std::function<void(const Response&, int line)>& take);
+                          const std::function<void(const Response&, int line)>& take,
+                          const FilePart& part = {});
 
 } // namespace obscura

@@ -217,5 +217,34 @@ TEST_F(CollectAnswers, SkipsBadRowsOnlyWhenLenient) {
     EXPECT_EQ(answers.bad[1].place.file, file("b.csv"));
 }
 
+// Read in parts of 8 MiB; the rows stand on the lines that they stand on, and so do errors.
+TEST_F(CollectAnswers, ALargeFileIsReadAsAWhole) {
+    for (const bool isLong : {false, true}) { // settings of one line, or of many
+        std::vector<Response> rows;
+        for (int number = 1; number <= 200; ++number) {
+            rows.push_back(sampleResponse(number, "c1", true));
+            rows.back().paramsB = isLong ? "" : std::string(100'000, 'x');
+            for (int line = 0; isLong && line < 50'000; ++line)
+                rows.back().paramsB += "x\n";
+        }
+        const int lines = isLong ? 50'001 : 1; // of each row
+        writeRows(folder_ / "a.csv", rows);
+        const Answers answers = collect();
+        ASSERT_EQ(answers.counted.size(), 200u);
+        for (int i = 0; i < 200; ++i) {
+            ASSERT_EQ(answers.counted[i].row.slotId, i + 1);
+            ASSERT_EQ(answers.counted[i].line, 2 + i * lines);
+        }
+        rows[150].slotId = rows[190].slotId = 0;
+        writeRows(folder_ / "a.csv", rows);
+        EXPECT_THAT(error(), testing::StartsWith(fmt::format("{}:{}:7: slot_id: expected",
+                                                             file("a.csv"), 2 + 150 * lines)));
+        const Answers lenient = collect({.lenient = true});
+        EXPECT_EQ(lenient.counted.size(), 198u);
+        ASSERT_EQ(lenient.bad.size(), 2u);
+        EXPECT_EQ(lenient.bad[1].place.line, 2 + 190 * lines);
+    }
+}
+
 } // namespace
 } // namespace obscura
