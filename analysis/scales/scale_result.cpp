@@ -49,21 +49,30 @@ void setErrors(ScaleResult& result, const Eigen::VectorXd& errors,
     }
 }
 
+// The confidence of percentiles that cover 95 % although people are few: as much further out as
+// Student's t is than the normal, and as people vary more than resampled ones (Hesterberg's
+// expanded percentiles, Am. Stat. 69 (2015) 371).
+double expandedConfidence(int people) {
+    const double n = people;
+    return 1 - normalP(std::sqrt(n / (n - 1)) * studentQuantile(0.975, n - 1));
+}
+
 bool resample(ScaleResult& result, const Eigen::MatrixXd& rows, const Refit& refit) {
     if (!refit || result.group.people < fewestPeople)
         return false;
-    const auto found = bootstrap(result.group.people,
-                                 [&](std::span<const int> times) -> std::optional<Eigen::VectorXd> {
-                                     const auto values = refit(times);
-                                     if (!values || !values->allFinite())
-                                         return std::nullopt;
-                                     return Eigen::VectorXd(rows * *values);
-                                 },
-                                 {.samples = samples});
+    const auto found =
+        bootstrap(result.group.people,
+                  [&](std::span<const int> times) -> std::optional<Eigen::VectorXd> {
+                      const auto values = refit(times);
+                      if (!values || !values->allFinite())
+                          return std::nullopt;
+                      return Eigen::VectorXd(rows * *values);
+                  },
+                  {.samples = samples, .confidence = expandedConfidence(result.group.people)});
     if (!found)
         return false;
     setErrors(result, found->standardErrors, found->percentile);
-    result.intervals = fmt::format("bootstrap over {} people, {} samples, percentile",
+    result.intervals = fmt::format("bootstrap over {} people, {} samples, expanded percentiles",
                                    result.group.people, samples);
     return true;
 }
