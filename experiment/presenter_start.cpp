@@ -57,6 +57,7 @@ Presenter::Start Presenter::askId(const StartFacts& start,
                     typed.clear();
                     problem.clear();
                     turnTo(page);
+                    break; // these inputs are gone: the question has asked for others
                 }
             }
             if (edit(typed, input))
