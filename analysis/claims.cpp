@@ -195,17 +195,18 @@ double slopeOf(const std::vector<Votes>& person, const std::vector<double>& scor
     return sum / squares * (*high - *low);
 }
 
+std::string riseOf(const Claim& claim) {
+    return fmt::format("rise of the share of {} over the scores", claim.favours);
+}
+
 void testTotals(const ClaimVotes& votes, bool ofA, ClaimResult& result) {
     std::vector<Votes> totals;
-    double slope = 0;
-    const double centre = average(votes.scores);
-    for (std::size_t i = 0; i < votes.tallies.size(); ++i) {
-        totals.push_back(exchangedIf(ofA, votes.tallies[i]->votes));
-        slope += (votes.scores[i] - centre) * shareOf(totals.back());
-    }
+    for (const Tally* tally : votes.tallies)
+        totals.push_back(exchangedIf(ofA, tally->votes));
     result.method = "trend of totals (Cochran and Armitage)";
-    result.measure = "direction of the trend";
-    result.estimate = slope > 0 ? 1 : slope < 0 ? -1 : 0;
+    result.measure = riseOf(result.claim);
+    result.noEffect = 0;
+    result.estimate = slopeOf(totals, votes.scores, false);
     result.test = trend(totals, votes.scores);
     result.notes.emplace_back("takes the votes for those of different people, which they are not: "
                               "only trial by trial can decide");
@@ -264,7 +265,8 @@ void testTrend(const ClaimVotes& votes, ClaimResult& result) {
     std::vector<double> slopes;
     for (const auto& person : complete)
         slopes.push_back(slopeOf(person, votes.scores, ofA));
-    result.measure = fmt::format("rise of the share of {} over the scores", result.claim.favours);
+    result.measure = riseOf(result.claim);
+    result.noEffect = 0;
     testPeople(slopes, 0, "slopes", result);
 }
 
@@ -308,14 +310,11 @@ ClaimResult testClaim(const Claim& claim, const std::vector<Tally>& tallies,
     return result;
 }
 
-// The estimate where there is no effect.
-double evenOf(const ClaimResult& result) { return result.measure.starts_with("share") ? 0.5 : 0; }
-
 void decide(ClaimResult& result) {
     if (result.outcome != Outcome::undecided || !(result.holm < significance))
         return;
     const bool asClaimed = result.claim.kind == Kind::equivalent ||
-                           result.estimate.value_or(evenOf(result)) > evenOf(result);
+                           result.estimate.value_or(result.noEffect) > result.noEffect;
     result.outcome = asClaimed ? Outcome::supported : Outcome::contradicted;
 }
 
@@ -347,9 +346,9 @@ std::string points(double difference) {
 
 // What was found, without the test.
 std::string foundOf(const ClaimResult& result) {
-    if (!result.estimate || result.method.starts_with("trend"))
+    if (!result.estimate)
         return {};
-    const bool rise = result.measure.starts_with("rise");
+    const bool rise = result.noEffect == 0;
     const auto text = rise ? points : percent;
     const std::string limits =
         result.interval ? fmt::format(" ({} % interval {} to {})", result.confidence,

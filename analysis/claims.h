@@ -31,6 +31,7 @@ struct ClaimResult {
     std::string method;             // the test in words, with what it is of
     std::string measure;            // what the estimate is of
     std::optional<double> estimate; // a share or a difference of shares, -1 ... 1
+    double noEffect = 0.5; // the estimate's value where there is none: a share's; 0 of a rise's
     std::optional<Interval> interval;
     int confidence = 95; // percent, of the interval: 90 belongs to two one-sided tests at .05
     std::optional<Test> test;
