@@ -1,5 +1,6 @@
 #include "analysis/scales/psychometric_figure.h"
 
+#include "analysis/scales/scale_words.h"
 #include "report/gnuplot.h"
 #include "report/paper_figure.h"
 
@@ -56,10 +57,13 @@ Panel curvePanel(const ScaleResult& result, std::size_t index, std::string& bloc
     const double half = probability(model, parameters, parameters.threshold);
     const double low = std::max(left, threshold.interval.low.value_or(left)),
                  high = std::min(right, threshold.interval.high.value_or(right));
+    // A threshold beyond the picture is drawn outside of it, with its bar, where nobody sees it.
+    const bool isSeen = threshold.value >= left && threshold.value <= right;
     const std::string name = format("panel{}", index);
-    blocks +=
-        plot::block(name + "points", points) + plot::block(name + "curve", curve) +
-        plot::block(name + "threshold", format("{} {} {} {}\n", threshold.value, half, low, high));
+    blocks += plot::block(name + "points", points) + plot::block(name + "curve", curve) +
+              plot::block(name + "threshold",
+                          isSeen ? format("{} {} {} {}\n", threshold.value, half, low, high)
+                                 : format("{0} {1} {0} {0}\n", left - 9 * (right - left), half));
     panel.script = format("set xrange [{}:{}]\n", left, right);
     if (ladder.isOrder) {
         std::vector<std::string> ticks;
@@ -73,15 +77,17 @@ Panel curvePanel(const ScaleResult& result, std::size_t index, std::string& bloc
         panel.script += format("set xtics nomirror out {}\n", tickStep(right - left));
     }
     const bool isRight = threshold.value > (left + right) / 2; // so that the label has room
-    panel.script += format(
-        "set arrow from first {0}, graph 0 to first {0}, first {1} nohead linewidth 1 dashtype 2 "
-        "linecolor rgb '#D55E00'\n"
-        "set label {2} at first {0}, graph 0 {3} offset {4}, 0.7 font ',7' textcolor rgb "
-        "'#B33A00'\n",
-        threshold.value, half,
-        gnuplotText(format("{:.0f} %: {}{:.3g} ({:.3g} to {:.3g})", 100 * half,
-                           ladder.isOrder ? "step " : "", threshold.value, low, high)),
-        isRight ? "right" : "left", isRight ? -0.7 : 0.7);
+    if (isSeen)
+        panel.script += format(
+            "set arrow from first {0}, graph 0 to first {0}, first {1} nohead linewidth 1 dashtype "
+            "2 "
+            "linecolor rgb '#D55E00'\n"
+            "set label {2} at first {0}, graph 0 {3} offset {4}, 0.7 font ',7' textcolor rgb "
+            "'#B33A00'\n",
+            threshold.value, half,
+            gnuplotText(format("{:.0f} %: {}{:.3g} ({})", 100 * half, ladder.isOrder ? "step " : "",
+                               threshold.value, spelt(threshold.interval, 3))),
+            isRight ? "right" : "left", isRight ? -0.7 : 0.7);
     panel.script +=
         format("plot {} with lines linewidth 1 dashtype 3 linecolor rgb '{}' notitle, \\\n"
                "  ${}curve with lines linewidth 2 linecolor rgb '#0072B2' notitle, \\\n"
