@@ -1,6 +1,6 @@
 #pragma once
 
-#include "image/image_error.h"
+#include "metrics/image_error.h"
 #include "protocols/reader/match.h"
 
 #include <map>

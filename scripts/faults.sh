@@ -19,9 +19,9 @@ fault sun-swapped renderer/frame/light.cpp \
 fault srgb-toe image/image.cpp \
     's|12\.92f \* linear|12.2f * linear|' \
     image_test 'Srgb.*'
-fault flip-exponent image/flip.cpp \
+fault flip-exponent metrics/flip.cpp \
     's|0\.7F\)|0.75F)|' \
-    image_test 'Flip.*'
+    metrics_test 'Flip.*'
 fault radius-lost renderer/techniques/settings.cpp \
     's|settings\.set\("radius", radius, setting\.place\)|settings.set("radius", 100 * radius, setting.place)|' \
     renderer_test 'SettingsTest.*'

@@ -35,6 +35,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("image", {"base"});
     room("report", {"base"});
     room("protocols", {"base"});
+    room("metrics", {"image", "protocols"});
     room("renderer/scene", {"image", "protocols"});
     room("renderer/builtin", {"renderer/scene"});
     room("renderer/shaders", {});
@@ -42,7 +43,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("renderer/techniques", {"renderer/frame"});
     room("renderer/reference", {"renderer/frame"});
     room("renderer", {"renderer/builtin", "renderer/techniques", "renderer/reference"});
-    room("matching", {"renderer"});
+    room("matching", {"renderer", "metrics"});
     room("stimuli", {"matching"});
     room("bench", {"matching", "report"});
     room("inference", {"base"});

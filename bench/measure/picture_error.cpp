@@ -1,7 +1,7 @@
 #include "bench/measure/picture_error.h"
 
-#include "image/flip.h"
-#include "image/image_error.h"
+#include "metrics/flip.h"
+#include "metrics/image_error.h"
 
 namespace obscura {
 

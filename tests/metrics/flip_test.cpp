@@ -1,5 +1,5 @@
 #include "base/random.h"
-#include "image/flip.h"
+#include "metrics/flip.h"
 
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>

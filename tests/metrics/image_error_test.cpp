@@ -1,4 +1,4 @@
-#include "image/image_error.h"
+#include "metrics/image_error.h"
 
 #include <gtest/gtest.h>
 

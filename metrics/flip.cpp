@@ -1,4 +1,4 @@
-#include "image/flip.h"
+#include "metrics/flip.h"
 
 #include "base/parallel.h"
 
