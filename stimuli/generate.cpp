@@ -9,6 +9,7 @@
 #include "stimuli/measurements.h"
 #include "stimuli/plan.h"
 #include "stimuli/times.h"
+#include "stimuli/warnings.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,6 +18,7 @@
 #include <array>
 #include <chrono>
 #include <cstring>
+#include <set>
 #include <span>
 
 namespace obscura {
@@ -209,6 +211,10 @@ std::map<std::string, std::vector<Recipe>> byView(const std::vector<Recipe>& rec
     return result;
 }
 
+void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
 bool isFinished(const ConditionRecord& condition) {
     return std::none_of(condition.images.begin(), condition.images.end(),
                         [](const ImageRecord& image) { return image.image.path.empty(); });
@@ -398,6 +404,8 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
 
     RecipeRenderer renderer(folders);
     Measurements measurements(protocol, folder, byView(recipes), renderer);
+    Warnings warnings(protocol, renderer);
+    std::set<std::string> anew; // conditions of which an image was rendered
     for (std::size_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
         announce(static_cast<int>(i), static_cast<int>(images.size()), image.file);
@@ -414,6 +422,7 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
                                          known->second.layers.contains("linear"));
             const Rendering rendering = renderer.render(recipes[i], exrs);
             addWarnings(result.warnings, condition.view, renderer.sceneWarnings());
+            anew.insert(condition.id);
             const double start = seconds();
             record = write(rendering, image.file, folder, exrs);
             result.writing += seconds() - start;
@@ -425,6 +434,8 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
         if (isFinished(pair)) {
             checkMatched(pair, condition.place);
             measurements.complete(result.manifest, pair);
+            if (anew.contains(condition.id))
+                add(result.warnings, warnings.of(condition, recipesOf(pair)));
             writeManifest(folder / unfinishedName, finishedPart(result.manifest));
         }
     }
@@ -444,16 +455,25 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     return result;
 }
 
-void check(const Protocol& protocol, const Folders& folders, const gl::Driver& driver,
-           const Announce& announce) {
+std::vector<std::string> check(const Protocol& protocol, const Folders& folders,
+                               const gl::Driver& driver, const Announce& announce) {
     SceneHashes scenes(folders);
     RecipeRenderer renderer(folders);
+    Warnings warnings(protocol, renderer);
+    std::vector<std::string> found;
+    std::vector<std::vector<Recipe>> recipes(protocol.conditions.size());
     const std::vector<PlannedImage> images = plan(protocol);
     for (std::size_t i = 0; i < images.size(); ++i) {
         announce(static_cast<int>(i), static_cast<int>(images.size()), images[i].file);
-        renderer.check(makeRecipe(protocol, protocol.conditions[images[i].condition],
-                                  images[i].member, scenes, driver));
+        const Condition& condition = protocol.conditions[images[i].condition];
+        std::vector<Recipe>& own = recipes[images[i].condition];
+        own.push_back(makeRecipe(protocol, condition, images[i].member, scenes, driver));
+        if (own.size() < condition.roles.size())
+            continue;
+        add(found, warnings.of(condition, own));
+        addWarnings(found, condition.view, renderer.sceneWarnings());
     }
+    return found;
 }
 
 int verify(const Protocol& protocol, const Manifest& manifest, const Folders& folders,
