@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int newestVersion = 2; // of the folder's files; version 1 said none
+constexpr int newestVersion = 3; // of the folder's files; version 1 said none
 
 // Every field with its name, once for writing and reading; Row may be const.
 
@@ -53,6 +53,7 @@ void eachCost(Row& row, Visit& visit) {
     visit("gbuffer_median_ms", row.gbuffer);
     visit("ratio_to_gbuffer", row.toGbuffer);
     visit("ratio_to_starcraft_16", row.toStarcraft);
+    visit("starcraft_16_odd_to_even", row.starcraftRepeat);
     visit("bytes_per_pixel", row.bytes);
     visit("fetches_per_pixel", row.fetches);
 }

@@ -76,6 +76,19 @@ std::string errorLine(const std::string& name, const PictureError& error) {
            number(error.ssim, 4) + number(error.flip) + "</tr>";
 }
 
+// Of each point: "f3" where it is on the front of the measure 3, "n3" where it is near.
+std::vector<std::string> frontClasses(const SweepGroup& group) {
+    std::vector<std::string> classes(group.points.size());
+    for (std::size_t m = 0; m < errorMeasures().size(); ++m) {
+        const auto points = paretoPoints(group, errorMeasures()[m]);
+        for (const std::size_t i : paretoFront(points))
+            classes[i] += format(" f{}", m);
+        for (const std::size_t i : nearFront(points, uncertaintyOf(group)))
+            classes[i] += format(" n{}", m);
+    }
+    return classes;
+}
+
 } // namespace
 
 std::string markHtml(std::size_t technique) {
@@ -84,26 +97,26 @@ std::string markHtml(std::size_t technique) {
                   technique);
 }
 
-std::string frontTable(const SweepGroup& group, const ErrorMeasure& measure,
-                       const std::vector<std::string>& techniques, std::size_t firstId) {
-    // The chosen error, then the two that every table has.
-    std::vector<const ErrorMeasure*> shown{&measure};
-    for (const ErrorMeasure& other : errorMeasures())
-        if (other.always && &other != &measure)
-            shown.push_back(&other);
+std::string frontTable(const SweepGroup& group, const std::vector<std::string>& techniques,
+                       std::size_t firstId) {
+    const auto measures = errorMeasures();
+    const auto cellClass = [&](std::size_t m) {
+        return measures[m].always ? std::string("number") : format("number c c{}", m);
+    };
     std::string head = "<tr>" + numberHeader("") + header("On the front") + costHeaders() +
                        header("time spent"),
                 body;
-    for (const ErrorMeasure* one : shown)
-        head += numberHeader(format("{}, {}", one->name, one->reference));
-    int rank = 0;
-    for (const std::size_t i : paretoFront(paretoPoints(group, measure))) {
+    for (std::size_t m = 0; m < measures.size(); ++m)
+        head += format("<th scope=\"col\" class=\"{}\">{}, {}</th>", cellClass(m), measures[m].name,
+                       measures[m].reference);
+    const std::vector<std::string> places = frontClasses(group);
+    for (std::size_t i = 0; i < group.points.size(); ++i) {
         const SweepRow& point = group.points[i];
-        body += "<tr>" + number(format("{}", ++rank)) +
+        body += format("<tr class=\"{}\"><td class=\"number rank\"></td>", places[i]) +
                 link(point, indexOf(techniques, point.technique), firstId + i) + costs(point) +
                 format("<td>{}</td>", workBar(point));
-        for (const ErrorMeasure* one : shown)
-            body += number(one->of(point));
+        for (std::size_t m = 0; m < measures.size(); ++m)
+            body += format("<td class=\"{}\">{}</td>", cellClass(m), readable(measures[m].of(point)));
         body += format("<td><div class=\"thumb i{}\"></div></td></tr>\n", firstId + i);
     }
     return wide(head + header("visibility and its error") + "</tr>", body, "front");

@@ -36,6 +36,8 @@ struct SweepRow {
     double gbuffer = 0;           // median of the same run: depth, and the normals that it reads
     double toGbuffer = 0, toStarcraft = 0; // ratios of medians in the same run; the latter to
                                            // `starcraft` with 16 samples, blurred
+    double starcraftRepeat = 1; // the latter's median in odd rounds over that in even ones; NaN:
+                                // not measured
     double bytes = 0;                      // of GPU memory per pixel that the technique adds
     double fetches =
         0; // of textures per pixel of the image, as declared (renderer/techniques/fetches.h)
@@ -62,7 +64,7 @@ struct SweepMachine {
     std::string method; // "timer queries" or "glFinish and steady clock", and why
     std::string program, study, date;
     int rows = 0;          // that all configurations give on all views at all sizes; 0: not known
-    int formatVersion = 2; // of the folder that was read
+    int formatVersion = 3; // of the folder that was read
 };
 
 struct Sweep {

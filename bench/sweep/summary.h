@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/sweep/pareto.h"
-#include "bench/sweep/row.h"
+#include "bench/sweep/speed.h"
 #include "report/scatter.h"
 
 #include <map>
@@ -19,18 +19,13 @@ namespace obscura {
 // view's.
 SweepRow overViews(std::span<const SweepRow> rows);
 
-// The rows with their milliseconds as at the view's typical speed. Groups of configurations run one
-// after the other, while machines heat up and others use them: each row's are scaled so that
-// `starcraft` with 16 samples takes in its rounds what it takes in the view's median row. Ratios
-// stay as they are; so does what has none.
-std::vector<SweepRow> atTypicalSpeed(std::vector<SweepRow> rows);
-
 // The configurations of one scene, resolution and radius, by rising milliseconds at typical speed.
 struct SweepGroup {
     std::string scene;
     int width = 0, height = 0;
     double radius = 0; // metres
     std::vector<SweepRow> points;
+    Straying straying; // of the rows that the points are made of
 };
 // "atrium, 960×540, R 0.5 m"
 std::string titleOf(const SweepGroup& group);
@@ -51,6 +46,10 @@ struct ErrorMeasure {
 std::span<const ErrorMeasure> errorMeasures(); // the first is the default
 
 std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasure& measure);
+
+// How far the group's times are trusted, each way, as a share; 0 where the machine strayed little,
+// and fronts have no interval.
+double uncertaintyOf(const SweepGroup& group);
 
 // The group as a chart shows it; `techniques` are the series.
 Scatter scatterOf(const SweepGroup& group, const ErrorMeasure& measure,

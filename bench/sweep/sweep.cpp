@@ -220,6 +220,7 @@ SweepRow Sweeping::rowOf(MeasuredView& seen, const Configuration& configuration,
     row.gbuffer = time.gbuffer;
     row.toGbuffer = time.total.median / time.gbuffer;
     row.toStarcraft = time.total.median / time.starcraft;
+    row.starcraftRepeat = time.starcraftRepeat;
     row.bytes = time.bytes / (1.0 * row.width * row.height);
     row.fetches = fetchesPerPixel(settings) * (1 + guardShare(settings, row.width, row.height));
     addErrors(row, seen, configuration);

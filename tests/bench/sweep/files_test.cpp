@@ -83,7 +83,7 @@ TEST_F(SweepFiles, HaveAColumnForEachFieldAndAnEmptyCellForNaN) {
         return at == names.end() ? ""
                                  : records[1].cells[static_cast<std::size_t>(at - names.begin())];
     };
-    EXPECT_EQ(names.size(), 10u + 13 + 6 * 4 + 1);
+    EXPECT_EQ(names.size(), 10u + 14 + 6 * 4 + 1);
     EXPECT_EQ(cell("configuration"), "hbao");
     EXPECT_EQ(cell("full_raw_rmse"), "");
     EXPECT_EQ(cell("lit_matched_flip"), "0");
@@ -99,12 +99,12 @@ TEST_F(SweepFiles, NameThePlaceOfAFault) {
     EXPECT_EQ(errorAfter("growth.csv", "axis", "axes"),
               "s/growth.csv:1: axes: unknown column; did you mean \"axis\"?");
     EXPECT_THAT(errorAfter("sweep.csv", "atrium,", ""),
-                testing::StartsWith("s/sweep.csv:2: expected 48 columns, found 47"));
+                testing::StartsWith("s/sweep.csv:2: expected 49 columns, found 48"));
     EXPECT_THAT(errorAfter("sweep.json", "\"vendor\"", "\"seller\""),
                 HasSubstr("s/sweep.json: vendor: expected a text of this name, found none"));
     EXPECT_THAT(errorAfter("sweep.json", ",", ";"), HasSubstr("line 2, column"));
-    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 2", "\"formatVersion\": 3"),
-                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 2, found 3; a later"));
+    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 3", "\"formatVersion\": 4"),
+                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 3, found 4; a later"));
 }
 
 // Takes a column, the last but one, out of every line.
@@ -123,7 +123,7 @@ TEST_F(SweepFiles, OfAnEarlierVersionMayLackColumns) {
     EXPECT_THAT(test::errorOf([&] { readSweep(folder_ / "s"); }),
                 HasSubstr("expected column \"lit_matched_flip\", found \"thumbnail\""));
     std::string json = readFile(folder_ / "s/sweep.json");
-    const std::string version = "  \"formatVersion\": 2,\n";
+    const std::string version = "  \"formatVersion\": 3,\n";
     writeFile(folder_ / "s/sweep.json", json.erase(json.find(version), version.size()));
     const Sweep read = readSweep(folder_ / "s");
     EXPECT_EQ(read.machine.formatVersion, 1);
