@@ -201,8 +201,7 @@ std::string scatterSvg(const Scatter& chart, std::size_t seriesCount, std::size_
     const Frame frame{
         760, 470, 62, 748, 10, 418, logarithmicAxis(milliseconds), linearAxis(errors)};
     return opening(frame, "Milliseconds against " + chart.error, dataOf(chart, frame)) +
-           staircase(chart, frame) +
-           timeTicks(frame, chart.points) +
+           staircase(chart, frame) + timeTicks(frame, chart.points) +
            titles(frame, "milliseconds, median of frames (logarithmic)",
                   format("{}, {} reference", chart.error, chart.reference)) +
            threads(chart, frame, seriesCount) + bars(chart, frame) + numbers(chart, frame) +

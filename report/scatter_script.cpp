@@ -41,8 +41,8 @@ std::string staircase(const Scatter& scatter, double top, double right, double f
     return lines + format("{} {}\n", right, scatter.points[scatter.front.back()].error);
 }
 
-// Series in two columns, then the front's points, in the margin at the right, and how uncertain times
-// are.
+// Series in two columns, then the front's points, in the margin at the right, and how uncertain
+// times are.
 std::string key(const Scatter& scatter, const std::vector<std::string>& seriesNames,
                 const std::map<std::size_t, std::string>& series) {
     constexpr double left = 0.665, top = 0.965, line = 0.036;
@@ -146,8 +146,8 @@ std::string scatterScript(const Scatter& measured, const std::vector<std::string
     if (scatter.uncertainty > 0) {
         data += plot::block("unsure", staircase(scatter, up.high, across.high, free,
                                                 std::pow(1 + scatter.uncertainty, 2)));
-        elements.push_back(
-            "$unsure using 1:2 with steps linewidth 0.8 dashtype 3 linecolor rgb '#666666' notitle");
+        elements.push_back("$unsure using 1:2 with steps linewidth 0.8 dashtype 3 linecolor rgb "
+                           "'#666666' notitle");
     }
     for (const auto& [index, lines] : series) {
         data += plot::block(format("t{}", index), lines);

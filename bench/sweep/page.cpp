@@ -136,10 +136,11 @@ std::string nearSentence(const SweepGroup& group, const std::vector<ParetoPoint>
     std::vector<std::string> names;
     for (const std::size_t i : nearFront(points, uncertaintyOf(group)))
         names.push_back(points[i].name);
-    return format(" <span class=\"within\"{}>On the front within the uncertainty of time (±{:.1f} %): "
-                  "<span class=\"names\">{}</span>.</span>",
-                  names.empty() ? " hidden=\"hidden\"" : "", 100 * uncertaintyOf(group),
-                  escaped(fmt::format("{}", fmt::join(names, "; "))));
+    return format(
+        " <span class=\"within\"{}>On the front within the uncertainty of time (±{:.1f} %): "
+        "<span class=\"names\">{}</span>.</span>",
+        names.empty() ? " hidden=\"hidden\"" : "", 100 * uncertaintyOf(group),
+        escaped(fmt::format("{}", fmt::join(names, "; "))));
 }
 
 std::string frontSentence(const SweepGroup& group, const ErrorMeasure& measure) {
@@ -147,12 +148,13 @@ std::string frontSentence(const SweepGroup& group, const ErrorMeasure& measure) 
     const auto unknown = std::count_if(points.begin(), points.end(), [](const ParetoPoint& point) {
         return std::isnan(point.milliseconds + point.error);
     });
-    return format("{}, to the {} reference: <span class=\"count\">{} of {} configurations</span> are "
-                  "on the front: nothing else <span class=\"among\">measured</span> is as fast and "
-                  "as close.{}{}",
-                  measure.name, measure.reference, paretoFront(points).size(), points.size(),
-                  unknown ? format(" {} without this error are left out.", unknown) : "",
-                  nearSentence(group, points));
+    return format(
+        "{}, to the {} reference: <span class=\"count\">{} of {} configurations</span> are "
+        "on the front: nothing else <span class=\"among\">measured</span> is as fast and "
+        "as close.{}{}",
+        measure.name, measure.reference, paretoFront(points).size(), points.size(),
+        unknown ? format(" {} without this error are left out.", unknown) : "",
+        nearSentence(group, points));
 }
 
 // The charts of all measures; style shows the chosen one's.
@@ -161,10 +163,10 @@ std::string charts(const SweepGroup& group, const std::vector<std::string>& tech
     std::string html;
     for (std::size_t m = 0; m < errorMeasures().size(); ++m) {
         const ErrorMeasure& measure = errorMeasures()[m];
-        html += format("<div class=\"m m{}\"><figure>{}<figcaption>{}</figcaption></figure></div>\n",
-                       m,
-                       scatterSvg(scatterOf(group, measure, techniques), techniques.size(), firstId),
-                       frontSentence(group, measure));
+        html +=
+            format("<div class=\"m m{}\"><figure>{}<figcaption>{}</figcaption></figure></div>\n", m,
+                   scatterSvg(scatterOf(group, measure, techniques), techniques.size(), firstId),
+                   frontSentence(group, measure));
     }
     return html;
 }
@@ -198,9 +200,8 @@ std::string groupHtml(const SweepGroup& group, const std::vector<std::string>& t
     return format("<section class=\"points\" id=\"g{}\">\n", firstId) +
            element("h2", titleOf(group)) + warnings(group) + "<div class=\"chart\"><div>" +
            charts(group, techniques, firstId) + legend(group, techniques) + "</div>\n" +
-           panel(group, techniques, firstId) + "</div>\n" +
-           frontTable(group, techniques, firstId) + workLegend() +
-           "<details><summary>All configurations by matched RMSE</summary>" +
+           panel(group, techniques, firstId) + "</div>\n" + frontTable(group, techniques, firstId) +
+           workLegend() + "<details><summary>All configurations by matched RMSE</summary>" +
            rankingTable(group, techniques, firstId) + "</details></section>\n";
 }
 
@@ -348,7 +349,8 @@ std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
         firstId += group.points.size();
     }
     html += rateSection(sweep.rows) + growthSection(sweep);
-    return html + format("<script>{}{}</script>\n</body>\n</html>\n", sweepPageScript, sweepFrontScript);
+    return html +
+           format("<script>{}{}</script>\n</body>\n</html>\n", sweepPageScript, sweepFrontScript);
 }
 
 } // namespace obscura

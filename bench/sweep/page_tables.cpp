@@ -116,7 +116,8 @@ std::string frontTable(const SweepGroup& group, const std::vector<std::string>& 
                 link(point, indexOf(techniques, point.technique), firstId + i) + costs(point) +
                 format("<td>{}</td>", workBar(point));
         for (std::size_t m = 0; m < measures.size(); ++m)
-            body += format("<td class=\"{}\">{}</td>", cellClass(m), readable(measures[m].of(point)));
+            body +=
+                format("<td class=\"{}\">{}</td>", cellClass(m), readable(measures[m].of(point)));
         body += format("<td><div class=\"thumb i{}\"></div></td></tr>\n", firstId + i);
     }
     return wide(head + header("visibility and its error") + "</tr>", body, "front");

@@ -38,7 +38,7 @@ struct SweepRow {
                                            // `starcraft` with 16 samples, blurred
     double starcraftRepeat = 1; // the latter's median in odd rounds over that in even ones; NaN:
                                 // not measured
-    double bytes = 0;                      // of GPU memory per pixel that the technique adds
+    double bytes = 0;           // of GPU memory per pixel that the technique adds
     double fetches =
         0; // of textures per pixel of the image, as declared (renderer/techniques/fetches.h)
 

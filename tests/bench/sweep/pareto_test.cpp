@@ -38,7 +38,7 @@ TEST(ParetoFront, LeavesOutWhatIsNotANumber) {
 }
 
 TEST(NearFront, IsWhatIsDominatedByLessThanTimesAreUncertain) {
-    const Points points = {{1, 3, "a"},    {1.2, 3, "b"}, {1.22, 3, "c"}, {0, 4, "free"},
+    const Points points = {{1, 3, "a"},   {1.2, 3, "b"}, {1.22, 3, "c"}, {0, 4, "free"},
                            {0.1, 4, "d"}, {nan, 1, "e"}, {2, 2, "f"}};
     EXPECT_THAT(nearFront(points, 0.1), ElementsAre(1)); // 1.1 each way is 1.21
     EXPECT_THAT(nearFront(points, 0), IsEmpty());
