@@ -259,6 +259,12 @@ std::string introduction(const Sweep& sweep) {
                             machine.renderer, machine.vendor, machine.glVersion, machine.processor,
                             machine.clocks.empty() ? "clocks unknown" : "clocks " + machine.clocks,
                             machine.method, machine.date));
+    if (!machine.display.empty())
+        html += element("p", format("JOD (just-objectionable differences) are predicted, by "
+                                    "ColorVideoVDP, for a person before a screen of {}. 10 is no "
+                                    "difference from the lit truth; at 9, 75 of 100 would prefer "
+                                    "the truth. Nobody has looked.",
+                                    machine.display));
     html += format("<p class=\"aside hash\">{}; study {}</p>\n", escaped(machine.program),
                    escaped(machine.study));
     if (const std::string lacking = incompleteness(sweep); !lacking.empty())
@@ -286,7 +292,8 @@ std::string introduction(const Sweep& sweep) {
            "was faster or slower for a while, times are scaled by starcraft's in the same rounds; "
            "sweep.csv has them as they were. What took no time stands on the left border. RMSE is "
            "the "
-           "root of the mean square over views, all other errors are means over views; bias is the "
+           "root of the mean square over views, all other errors and predicted JOD are means over "
+           "views; bias is the "
            "mean of its size, without its sign, which is above 0 where a technique is too dark. "
            "Matched errors "
            "are what remains after each technique was fitted on training views. The full reference "

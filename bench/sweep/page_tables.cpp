@@ -73,7 +73,7 @@ std::string wide(const std::string& head, const std::string& body, const std::st
 
 std::string errorLine(const std::string& name, const PictureError& error) {
     return format("<tr><th scope=\"row\">{}</th>", name) + number(error.rmse) + number(error.bias) +
-           number(error.ssim, 4) + number(error.flip) + "</tr>";
+           number(error.ssim, 4) + number(error.flip) + number(error.jod) + "</tr>";
 }
 
 // Of each point: "f3" where it is on the front of the measure 3, "n3" where it is near.
@@ -143,18 +143,19 @@ std::string rankingTable(const SweepGroup& group, const std::vector<std::string>
                 link(point, indexOf(techniques, point.technique), firstId + i) +
                 number(points[i].error) + number(point.raw.rmse) + number(point.raw.bias) +
                 number(point.matched.ssim, 4) + number(point.matched.flip) +
-                number(point.litMatched.flip) + number(point.depthMatched.rmse) + costs(point) +
+                number(point.litMatched.flip) + number(point.litMatched.jod) +
+                number(point.depthMatched.rmse) + costs(point) +
                 format("<td>{}</td></tr>\n",
                        better ? escaped(points[*better].name)
                               : (std::isnan(points[i].error) ? "–" : "on the front"));
     }
-    return wide("<tr>" + numberHeader("rank") + header("Configuration") +
-                    numberHeader("RMSE, matched") + numberHeader("RMSE, raw") +
-                    numberHeader("bias, raw") + numberHeader("SSIM, matched") +
-                    numberHeader("FLIP, matched") + numberHeader("FLIP of lit, matched") +
-                    numberHeader("RMSE to depth, matched") + costHeaders() +
-                    header("better and no slower") + "</tr>",
-                body, "ranking");
+    return wide(
+        "<tr>" + numberHeader("rank") + header("Configuration") + numberHeader("RMSE, matched") +
+            numberHeader("RMSE, raw") + numberHeader("bias, raw") + numberHeader("SSIM, matched") +
+            numberHeader("FLIP, matched") + numberHeader("FLIP of lit, matched") +
+            numberHeader("predicted JOD of lit, matched") + numberHeader("RMSE to depth, matched") +
+            costHeaders() + header("better and no slower") + "</tr>",
+        body, "ranking");
 }
 
 std::string detailsOf(const SweepRow& point) {
@@ -169,7 +170,8 @@ std::string detailsOf(const SweepRow& point) {
                   readable(point.toGbuffer), readable(point.gbuffer), readable(point.toStarcraft),
                   readable(point.fetches), readable(point.bytes), workBar(point)) +
            wide("<tr>" + header("error to") + numberHeader("RMSE") + numberHeader("bias") +
-                    numberHeader("SSIM") + numberHeader("FLIP") + "</tr>",
+                    numberHeader("SSIM") + numberHeader("FLIP") + numberHeader("predicted JOD") +
+                    "</tr>",
                 errorLine("full, raw", point.raw) + errorLine("full, matched", point.matched) +
                     errorLine("depth buffer, raw", point.depthRaw) +
                     errorLine("depth buffer, matched", point.depthMatched) +

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Milliseconds {
 // Of one picture against its truth. NaN: not measured.
 struct PictureError {
     double rmse = 0, bias = 0, ssim = 0, flip = 0;
+    double jod = std::numeric_limits<double>::quiet_NaN(); // predicted, of lit images alone
 };
 
 struct SweepRow {
@@ -45,7 +47,7 @@ struct SweepRow {
     // Against rays through the whole scene, and against the same integral over the depth buffer
     // alone: visibility as the technique leaves it, and after matching (fitted on training views).
     PictureError raw, matched, depthRaw, depthMatched; // flip: of visibility shown as sRGB grey
-    PictureError litRaw, litMatched;                   // of the lit image; ssim of its luminance
+    PictureError litRaw, litMatched;                   // of the lit image; ssim of its luma
     std::string
         thumbnail; // file in the sweep's folder, or "": matched visibility, its error beside it
 };
@@ -63,6 +65,7 @@ struct SweepMachine {
     std::string vendor, renderer, glVersion, processor, clocks; // clocks: "" when unknown
     std::string method; // "timer queries" or "glFinish and steady clock", and why
     std::string program, study, date;
+    std::string display;   // in words, on which JOD is predicted; "" of folders before version 3
     int rows = 0;          // that all configurations give on all views at all sizes; 0: not known
     int formatVersion = 3; // of the folder that was read
 };

@@ -41,7 +41,8 @@ PictureError errorOf(Rows rows, PictureError SweepRow::*error) {
         std::copysign(mean(rows, [&](const SweepRow& row) { return std::abs((row.*error).bias); }),
                       mean(rows, [&](const SweepRow& row) { return (row.*error).bias; })),
         mean(rows, [&](const SweepRow& row) { return (row.*error).ssim; }),
-        mean(rows, [&](const SweepRow& row) { return (row.*error).flip; })};
+        mean(rows, [&](const SweepRow& row) { return (row.*error).flip; }),
+        mean(rows, [&](const SweepRow& row) { return (row.*error).jod; })};
 }
 
 std::set<std::string> viewsOf(Rows rows) {
@@ -150,12 +151,14 @@ std::vector<std::string> lackingViews(const SweepGroup& group) {
 std::span<const ErrorMeasure> errorMeasures() {
     using R = SweepRow;
     static const ErrorMeasure measures[] = {
-        {"RMSE, matched", full, [](const R& row) { return row.matched.rmse; }, true},
+        {"RMSE, matched", full, [](const R& row) { return row.matched.rmse; }, true, "scatter"},
         {"RMSE, raw", full, [](const R& row) { return row.raw.rmse; }},
         {"bias, raw", full, [](const R& row) { return std::abs(row.raw.bias); }},
         {"1 − SSIM, matched", full, [](const R& row) { return 1 - row.matched.ssim; }},
         {"FLIP, matched", full, [](const R& row) { return row.matched.flip; }, true},
         {"FLIP of the lit image, matched", full, [](const R& row) { return row.litMatched.flip; }},
+        {"10 − predicted JOD of the lit image, matched", full,
+         [](const R& row) { return 10 - row.litMatched.jod; }, false, "predicted-jod"},
         {"RMSE, matched", depth, [](const R& row) { return row.depthMatched.rmse; }},
         {"RMSE, raw", depth, [](const R& row) { return row.depthRaw.rmse; }},
         {"bias, raw", depth, [](const R& row) { return std::abs(row.depthRaw.bias); }},

@@ -14,9 +14,9 @@ namespace obscura {
 // One configuration at one scene, resolution and radius, all views taken together. Times, fetches,
 // bytes and ratios are medians over views, so that the percentiles are those of the frames of a
 // typical view. RMSE is the root of the mean square; bias is the mean size with the sign of the
-// mean, so that views do not cancel out; other errors are means. An error is NaN as soon as one
-// view has none. Frames are summed, `view` lists the names, and text and thumbnail are the first
-// view's.
+// mean, so that views do not cancel out; other errors and predicted JOD are means. An error is NaN
+// as soon as one view has none. Frames are summed, `view` lists the names, and text and thumbnail
+// are the first view's.
 SweepRow overViews(std::span<const SweepRow> rows);
 
 // The configurations of one scene, resolution and radius, by rising milliseconds at typical speed.
@@ -41,7 +41,8 @@ struct ErrorMeasure {
     std::string name;      // "RMSE, matched"
     std::string reference; // "full" or "depth buffer"
     double (*of)(const SweepRow&);
-    bool always = false; // tables show it beside any other
+    bool always = false;     // tables show it beside any other
+    std::string figure = {}; // how the file of its figure for papers begins; "": it has none
 };
 std::span<const ErrorMeasure> errorMeasures(); // the first is the default
 

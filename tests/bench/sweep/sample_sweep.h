@@ -100,6 +100,8 @@ inline SweepRow sampleRow(const SampleConfiguration& configuration, const std::s
     row.depthMatched = error(.7);
     row.litRaw = error(.6);
     row.litMatched = error(.4);
+    row.litRaw.jod = 10 - 12 * rmse;
+    row.litMatched.jod = 10 - 9 * rmse;
     return row;
 }
 
