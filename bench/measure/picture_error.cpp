@@ -1,5 +1,6 @@
 #include "bench/measure/picture_error.h"
 
+#include "metrics/color_video_vdp.h"
 #include "metrics/flip.h"
 #include "metrics/image_error.h"
 
@@ -20,8 +21,11 @@ PictureError visibilityError(const Image& image, const Image& truth,
     return errorOf(image, truth, displayed(image), displayed(truth), shown);
 }
 
-PictureError litError(const Image8& image, const Image8& truth, const std::vector<bool>& shown) {
-    return errorOf(lumaOf(image), lumaOf(truth), image, truth, shown);
+PictureError litError(const Image8& image, const Image8& truth, const std::vector<bool>& shown,
+                      const Display& display) {
+    PictureError error = errorOf(lumaOf(image), lumaOf(truth), image, truth, shown);
+    error.jod = predictedDifference(image, truth, display).jod;
+    return error;
 }
 
 } // namespace obscura
