@@ -23,10 +23,8 @@ namespace {
 
 constexpr ImageSize glanceSize{160, 90};
 constexpr int glanceRays = 64, glanceFrames = 5;
-// A glance sees one small view: what is over the budget by less than this may still meet it.
-constexpr double glanceFactor = 1.5, glanceMargin = 0.02;
-// Costs by a few frames, and errors on one view, that differ by less than this are not told apart.
-constexpr double nearlyAlike = 1.15, rmseAlike = 0.03;
+// Errors on one view that differ by less than this are not told apart.
+constexpr double rmseAlike = 0.03;
 // Candidates that are asked at once about what takes long: their truth is the same.
 constexpr std::size_t together = 3;
 
@@ -34,12 +32,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 const std::string& nameOf(const Candidate& candidate) {
     return candidate.configuration.setting.name;
-}
-
-// By Budget::best or, without it, cost; least first.
-double worth(const Budget& budget, const Candidate& candidate) {
-    return budget.best ? budget.best->distance(meanOf(candidate.views, budget.best->value))
-                       : candidate.milliseconds;
 }
 
 // Time and flicker are not known yet, and within any limit.
@@ -68,6 +60,7 @@ class Choosing {
     void timeAll();
     void dropDominated();
     std::pair<Candidates, Candidates> contenders();
+    Candidates nearestAtAGlance();
     void fit(const Candidates& contenders);
     void measure(Candidate& candidate);
     void walk(Candidates contenders);
@@ -154,14 +147,14 @@ void Choosing::glance() {
         candidate.configuration = {technique, matched.fitted};
         candidate.glanceRmse = summaryOf(matched.rows, nameOf(study.truth), "matched").rmse;
         candidate.rmse = candidate.milliseconds = candidate.trainingRmse = nan;
-        if (budget_.rmse && candidate.glanceRmse > *budget_.rmse * glanceFactor + glanceMargin)
-            candidate.verdict = fmt::format("RMSE {:.3f} at a glance, limit {:.3f}",
-                                            candidate.glanceRmse, *budget_.rmse);
+        if (budget_.rmse && candidate.glanceRmse > farOver(*budget_.rmse))
+            candidate.verdict = "RMSE far over the limit at a glance";
         choice_.candidates.push_back(std::move(candidate));
     }
 }
 
-// As matched at a glance, for a radius changes the cost.
+// As matched at a glance, for a radius changes the cost; the fastest of few frames, because what
+// else the machine does only adds to their times.
 void Choosing::timeAll() {
     const double radius = study_.match.test.front().radius;
     std::vector<Settings> settings;
@@ -171,25 +164,25 @@ void Choosing::timeAll() {
         milliseconds(0, settings, glanceFrames, std::numeric_limits<double>::infinity(), false);
     for (std::size_t i = 0; i < times.size(); ++i) {
         Candidate& candidate = choice_.candidates[i];
-        candidate.glanceMilliseconds = times[i].median;
+        candidate.glanceMilliseconds = times[i].low;
         if (candidate.verdict.empty() && budget_.milliseconds &&
             candidate.glanceMilliseconds > *budget_.milliseconds * glanceFactor)
-            candidate.verdict = fmt::format("{:.3g} ms at a glance, limit {:.3g}",
-                                            candidate.glanceMilliseconds, *budget_.milliseconds);
+            candidate.verdict = "milliseconds far over the limit at a glance";
     }
 }
 
+// By one that is clearly better and clearly cheaper, or, asked for the best within a time, clearly
+// within it.
 void Choosing::dropDominated() {
     for (Candidate& candidate : choice_.candidates)
-        for (const Candidate& other : choice_.candidates)
-            if (candidate.verdict.empty() &&
-                other.glanceMilliseconds * nearlyAlike <= candidate.glanceMilliseconds &&
+        for (const Candidate& other : choice_.candidates) {
+            const double most = budget_.best ? *budget_.milliseconds : candidate.glanceMilliseconds;
+            if (candidate.verdict.empty() && other.glanceMilliseconds * glanceFactor <= most &&
                 other.glanceRmse + rmseAlike <= candidate.glanceRmse)
                 candidate.verdict =
-                    fmt::format("at a glance {} takes {:.3g} ms and has RMSE {:.3f} instead of "
-                                "{:.3g} ms and {:.3f}",
-                                nameOf(other), other.glanceMilliseconds, other.glanceRmse,
-                                candidate.glanceMilliseconds, candidate.glanceRmse);
+                    fmt::format("{} ({:.3g} ms, RMSE {:.3f}) is preferable at a glance",
+                                nameOf(other), other.glanceMilliseconds, other.glanceRmse);
+        }
 }
 
 // Those that a glance left: first those that may be the answer, then those that are dearer than
@@ -198,14 +191,33 @@ std::pair<Choosing::Candidates, Choosing::Candidates> Choosing::contenders() {
     double enough = std::numeric_limits<double>::infinity();
     for (const Candidate& candidate : choice_.candidates)
         if (budget_.rmse && !budget_.best && candidate.verdict.empty() &&
-            candidate.glanceRmse * glanceFactor + glanceMargin <= *budget_.rmse)
-            enough = std::min(enough, candidate.glanceMilliseconds * nearlyAlike);
+            farOver(candidate.glanceRmse) <= *budget_.rmse)
+            enough = std::min(enough, candidate.glanceMilliseconds);
     std::pair<Candidates, Candidates> result;
     for (Candidate& candidate : choice_.candidates)
         if (candidate.verdict.empty())
             (candidate.glanceMilliseconds <= enough ? result.first : result.second)
                 .push_back(&candidate);
+    if (result.first.empty())
+        result.first = nearestAtAGlance();
     return result;
+}
+
+// Nothing is near the limits; so that it can be said what came nearest, and how near.
+Choosing::Candidates Choosing::nearestAtAGlance() {
+    const auto excessOf = [&](const Candidate* candidate) {
+        return std::max(budget_.rmse ? candidate->glanceRmse / *budget_.rmse : 0,
+                        budget_.milliseconds ? candidate->glanceMilliseconds / *budget_.milliseconds
+                                             : 0);
+    };
+    Candidates nearest;
+    for (Candidate& candidate : choice_.candidates)
+        nearest.push_back(&candidate);
+    std::stable_sort(nearest.begin(), nearest.end(), [&](const Candidate* a, const Candidate* b) {
+        return excessOf(a) < excessOf(b);
+    });
+    nearest.resize(std::min<std::size_t>(nearest.size(), failuresAllowed));
+    return nearest;
 }
 
 void Choosing::fit(const Candidates& contenders) {
@@ -246,7 +258,7 @@ void Choosing::walk(Candidates contenders) {
     for (Candidate* candidate : contenders) {
         if (failures_ == failuresAllowed) {
             candidate->verdict = fmt::format(
-                "not tried, for {} that were better on training views had failed", failures_);
+                "not tried, for {} that were better on training views failed", failures_);
             continue;
         }
         measure(*candidate);
@@ -341,20 +353,23 @@ void Choosing::pick() {
     }
 }
 
-// View by view, for what is hard is hard for all; at a level that holds for all comparisons
-// together (Bonferroni).
+// View by view, for what is hard is hard for all; in the order of errors on training views, from
+// the worst on, until failuresAllowed are not told apart: budget.h says why.
 void Choosing::compareWithChosen() {
     if (!budget_.best || !choice_.chosen || stages_.count() < 2)
         return;
     const Candidate& chosen = choice_.candidates[*choice_.chosen];
     Candidates others = withinBudget();
     std::erase(others, &chosen);
+    std::stable_sort(others.begin(), others.end(), [](const Candidate* a, const Candidate* b) {
+        return a->trainingRmse > b->trainingRmse;
+    });
     for (const Candidate* other : others) {
         std::vector<double> gains; // of the chosen one
         for (std::size_t i = 0; i < chosen.views.size(); ++i)
             gains.push_back(budget_.best->distance(chosen.views[i].*budget_.best->value) -
                             budget_.best->distance(other->views[i].*budget_.best->value));
-        if (upperBound(gains, 1 - (1 - confidence) / static_cast<double>(others.size())) >= 0)
+        if (choice_.alike.size() >= failuresAllowed || upperBound(gains) >= 0)
             choice_.alike.push_back(static_cast<std::size_t>(other - choice_.candidates.data()));
     }
     std::sort(choice_.alike.begin(), choice_.alike.end());
@@ -393,6 +408,11 @@ Choice Choosing::run() {
 }
 
 } // namespace
+
+double worth(const Budget& budget, const Candidate& candidate) {
+    return budget.best ? budget.best->distance(meanOf(candidate.views, budget.best->value))
+                       : candidate.milliseconds;
+}
 
 double costOf(const Candidate& candidate) {
     return std::isnan(candidate.milliseconds) ? candidate.glanceMilliseconds

@@ -19,12 +19,17 @@ enum class Rung {
     chosen
 };
 
+// A glance sees one small view: what is over a limit by less than this may still meet it.
+constexpr double glanceFactor = 1.5, glanceMargin = 0.02;
+inline double farOver(double rmse) { return rmse * glanceFactor + glanceMargin; }
+
 struct Candidate {
     Configuration configuration;
     Rung rung = Rung::glance;
-    // Median, and RMSE of matched visibility. At a glance: by the glance's fit, timed on the first
-    // held-out view, so that all candidates can be compared. Else the mean of all held-out views,
-    // of milliseconds as a sweep would have them; NaN of what was not measured.
+    // RMSE is of matched visibility. At a glance: by the glance's fit, the fastest of a few frames
+    // on the first held-out view, so that all candidates can be compared. Else the mean of all
+    // held-out views, of milliseconds as a sweep would have them (medians); NaN of what was not
+    // measured.
     double glanceMilliseconds = 0, milliseconds = 0;
     double glanceRmse = 0, rmse = 0;
     double trainingRmse = 0;       // of the fit on all training views; NaN without one
@@ -33,6 +38,8 @@ struct Candidate {
 };
 // Milliseconds on held-out views, or else at a glance.
 double costOf(const Candidate& candidate);
+// By Budget::best or, without it, milliseconds, on held-out views; least first.
+double worth(const Budget& budget, const Candidate& candidate);
 
 struct Choice {
     std::vector<Candidate> candidates; // by rising cost

@@ -1,5 +1,6 @@
 #include "bench/choose/figure.h"
 
+#include "bench/choose/radius.h"
 #include "bench/choose/words.h"
 #include "bench/sweep/pareto.h"
 #include "report/gnuplot.h"
@@ -10,7 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
 
 namespace obscura {
 
@@ -21,7 +22,8 @@ using fmt::format;
 constexpr double width = 7.2, rowHeight = 0.18, glanceHeight = 2.1; // inches
 constexpr double lineHeight = 0.15, axisHeight = 0.5, gap = 0.45;
 constexpr const char *green = "#009E73", *blue = "#0072B2", *orange = "#D55E00", *grey = "#888888";
-constexpr std::size_t lettersInLine = 118;
+constexpr std::size_t mostRows = 16, mostBeforeChosen = 10;
+constexpr std::size_t lettersInLine = 122, lettersInName = 36;
 
 // One of the columns of numbers: milliseconds, or a measure.
 struct Column {
@@ -59,16 +61,6 @@ Interval intervalOf(const Column& column, const Candidate& candidate) {
             column.measure->moreIsBetter() ? column.measure->perfect - bound : bound};
 }
 
-// Least milliseconds of the axes: what takes none has no logarithm and stands at their left edge.
-double leastOf(const Choice& choice) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Candidate& candidate : choice.candidates)
-        for (const double time : {candidate.glanceMilliseconds, candidate.milliseconds})
-            if (time > 0)
-                least = std::min(least, time);
-    return std::isfinite(least) ? least / 2 : 0.1;
-}
-
 // The measured candidates from the top: the order in which the answer is found by going down.
 std::vector<const Candidate*> rowsOf(const Budget& budget, const Choice& choice) {
     if (!choice.chosen)
@@ -79,10 +71,20 @@ std::vector<const Candidate*> rowsOf(const Budget& budget, const Choice& choice)
             rows.push_back(&candidate);
     if (budget.best)
         std::stable_sort(rows.begin(), rows.end(), [&](const Candidate* a, const Candidate* b) {
-            return budget.best->distance(meanOf(a->views, budget.best->value)) <
-                   budget.best->distance(meanOf(b->views, budget.best->value));
+            return worth(budget, *a) < worth(budget, *b);
         });
     return rows;
+}
+
+// Those of them that are drawn: some before the chosen one, and those that follow.
+std::vector<const Candidate*> drawnOf(const std::vector<const Candidate*>& rows) {
+    const auto chosen = std::find_if(rows.begin(), rows.end(), [](const Candidate* candidate) {
+        return candidate->rung == Rung::chosen;
+    });
+    const auto before = chosen == rows.end() ? 0 : chosen - rows.begin();
+    const auto first =
+        rows.begin() + std::max<std::ptrdiff_t>(0, before - std::ptrdiff_t(mostBeforeChosen));
+    return {first, first + std::min(std::ptrdiff_t(mostRows), rows.end() - first)};
 }
 
 const char* colourOf(const Candidate& candidate) {
@@ -128,16 +130,17 @@ std::string headScript(const Layout& layout) {
     return script;
 }
 
-// The rows' own names at the left and fates at the right, by the ticks of the outer columns.
-std::string namesScript(const std::vector<const Candidate*>& rows) {
+// The rows' names and numbers, left of the first column, and their lines in the others.
+std::string namesScript(const std::vector<const Candidate*>& rows, bool named) {
     std::string ticks;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        const std::string name = format("{}  {}", shortened(nameOf(*rows[i]), 34), i + 1);
+        const std::string name =
+            named ? format("{}  {}", shortened(nameOf(*rows[i]), lettersInName), i + 1) : "";
         ticks +=
             format("{}{} {}", i ? ", " : "",
                    rows[i]->rung == Rung::chosen ? gnuplotBold(name) : gnuplotText(name), i + 1);
     }
-    return "set ytics (" + ticks + ") scale 0 nomirror\n";
+    return "set ytics (" + ticks + ") scale 0 nomirror font ',7'\n";
 }
 
 std::string fatesScript(const Budget& budget, const Choice& choice,
@@ -150,20 +153,41 @@ std::string fatesScript(const Budget& budget, const Choice& choice,
     return script;
 }
 
-// From the truth's value, or the left edge, to what holds all means, limits and most bounds.
-std::string rangeOf(const Column& column, const std::vector<Interval>& intervals, double least) {
+// Ticks some fourth of the range apart, at 1, 2 or 5 times a power of ten.
+double tickStep(double range) { return roundRadius(range / 4); }
+
+// Of times above 0; what takes none has no logarithm and stands at the left edge.
+Axis timeAxis(std::vector<double> times) {
+    std::erase_if(times, [](double time) { return !(time > 0); });
+    if (times.empty())
+        times = {1};
+    const auto [low, high] = std::minmax_element(times.begin(), times.end());
+    times.insert(times.end(), {*low / 1.5, *high * 1.2});
+    return logarithmicAxis(times);
+}
+
+Axis timeAxis(const Column& column, const std::vector<Interval>& intervals) {
+    std::vector<double> times = {column.limit.value_or(0)};
+    for (const Interval& each : intervals)
+        times.insert(times.end(), {each.mean, each.bound});
+    return timeAxis(std::move(times));
+}
+
+// From the truth's value to what holds all means, the limit and most bounds.
+std::string rangeOf(const Column& column, const std::vector<Interval>& intervals) {
     if (!column.measure)
-        return format("set logscale x\nset xrange [{}:*]\n", least * 0.9);
+        return plot::ticks("x", timeAxis(column, intervals));
     double far = column.limit ? column.measure->distance(*column.limit) * 1.15 : 0;
     for (const Interval& each : intervals) {
         const double mean = column.measure->distance(each.mean),
                      bound = column.measure->distance(each.bound);
         far = std::max({far, 1.15 * mean, std::min(1.05 * bound, 2 * mean)});
     }
-    return column.measure->moreIsBetter()
-               ? format("unset logscale x\nset xrange [{}:{}]\n", column.measure->perfect - far,
-                        column.measure->perfect)
-               : format("unset logscale x\nset xrange [0:{}]\n", far);
+    far = std::max(far, 1e-3);
+    const double perfect = column.measure->perfect;
+    return format("unset logscale x\nset xtics {}\nset xrange [{}:{}]\n", tickStep(far),
+                  column.measure->moreIsBetter() ? perfect - far : 0,
+                  column.measure->moreIsBetter() ? perfect : far);
 }
 
 std::string limitScript(const Column& column) {
@@ -179,16 +203,21 @@ std::string limitScript(const Column& column) {
 
 std::string titleOf(const Column& column) {
     if (!column.measure)
-        return "milliseconds: mean of views, and 95 of 100 frames";
-    return format("{}: mean, and {:.3g} % bound", column.measure->spelt, 100 * boundLevel);
+        return "milliseconds; whisker: 95 of 100 frames";
+    return format("{}; whisker: {:.3g} % bound", column.measure->spelt, 100 * boundLevel);
 }
 
-std::string columnScript(const Column& column, const std::vector<const Candidate*>& rows,
-                         double least) {
+std::string columnScript(const Column& column, const std::vector<const Candidate*>& rows) {
     std::vector<Interval> intervals;
     for (const Candidate* candidate : rows)
         intervals.push_back(intervalOf(column, *candidate));
-    std::string script = rangeOf(column, intervals, least) + limitScript(column), plots, data;
+    std::string script = rangeOf(column, intervals) + limitScript(column), plots, data;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        if (rows[i]->rung == Rung::chosen)
+            script += format("set object 1 rectangle from graph 0, first {} to graph 1, first {} "
+                             "behind fillcolor rgb '#e3f3ed' fillstyle solid noborder\n",
+                             static_cast<double>(i) + 0.55, static_cast<double>(i) + 1.45);
+    const double free = timeAxis(column, intervals).low;
     for (const char* colour : {orange, blue, green}) {
         std::string lines;
         for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -196,7 +225,7 @@ std::string columnScript(const Column& column, const std::vector<const Candidate
             if (colourOf(*rows[i]) != colour || std::isnan(each.mean))
                 continue;
             if (!column.measure)
-                each = {std::max(each.mean, least), std::max(each.bound, least)};
+                each = {std::max(each.mean, free), std::max(each.bound, free)};
             if (!std::isfinite(each.bound))
                 each.bound = each.mean;
             lines += format("{} {} {} {}\n", each.mean, i + 1, std::min(each.mean, each.bound),
@@ -217,126 +246,140 @@ std::string columnScript(const Column& column, const std::vector<const Candidate
 std::string rowsScript(const Budget& budget, const Choice& choice,
                        const std::vector<const Candidate*>& rows, const Layout& layout) {
     const std::vector<Column> columns = columnsOf(budget);
-    const double left = 0.29, right = 0.865, between = 0.035,
+    const double left = 0.31, right = 0.86, between = 0.03,
                  each = (right - left + between) / static_cast<double>(columns.size());
     std::string script = format("set yrange [{}:0.4]\nset grid xtics ytics lc rgb '#e4e4e4'\n",
-                                static_cast<double>(rows.size()) + 0.6) +
-                         namesScript(rows);
+                                static_cast<double>(rows.size()) + 0.6);
     for (std::size_t c = 0; c < columns.size(); ++c) {
         const double from = left + each * static_cast<double>(c);
         script += margins(from, from + each - between, layout.rowsLow, layout.top);
+        script += namesScript(rows, c == 0);
         if (c + 1 == columns.size())
             script += fatesScript(budget, choice, rows);
-        script += columnScript(columns[c], rows, leastOf(choice)) +
-                  "unset label\nunset arrow\nset ytics format '' \n";
+        script += columnScript(columns[c], rows) + "unset label\nunset arrow\nunset object\n";
     }
     return script;
 }
 
+std::string restScript(std::size_t rest, const Layout& layout) {
+    return rest == 0
+               ? ""
+               : format("set label 300 {} at screen 0.012, screen {:.4f} left font ',7' tc rgb "
+                        "'{}'\n",
+                        gnuplotText(format("{} more were measured: choice.csv", rest)),
+                        layout.rowsLow - 0.25 / layout.height, grey);
+}
+
 struct GlanceFrame {
-    double low = 0, high = 0, top = 0; // milliseconds at the edges; RMSE at the top
+    Axis times;
+    double top = 0; // RMSE
     // In units of numberPlaces(), of which a number is 12 high.
     static constexpr double across = 560, up = 190;
 
+    double milliseconds(const Candidate& candidate) const {
+        return std::max(candidate.glanceMilliseconds, times.low);
+    }
     Spot spot(const Candidate& candidate) const {
-        return {across * std::log(std::max(candidate.glanceMilliseconds, low) / low) /
-                    std::log(high / low),
-                up * (1 - candidate.glanceRmse / top)};
+        return {across * times.at(milliseconds(candidate)), up * (1 - candidate.glanceRmse / top)};
     }
 };
 
 GlanceFrame glanceFrameOf(const Budget& budget, const Choice& choice) {
-    GlanceFrame frame{leastOf(choice) * 0.9, 0, 0};
+    std::vector<double> times = {glanceFactor * budget.milliseconds.value_or(0)};
+    double top = budget.rmse ? farOver(*budget.rmse) : 0.01;
     for (const Candidate& candidate : choice.candidates) {
-        frame.high = std::max(frame.high, candidate.glanceMilliseconds * 1.3);
-        frame.top = std::max(frame.top, candidate.glanceRmse * 1.08);
+        times.push_back(candidate.glanceMilliseconds);
+        top = std::max(top, candidate.glanceRmse);
     }
-    frame.high = std::max(frame.high, frame.low * 10);
-    frame.top = std::max({frame.top, budget.rmse.value_or(0) * 1.08, 0.01});
-    return frame;
+    return {timeAxis(std::move(times)), top * 1.08};
 }
 
-// The numbers of the rows beside the points.
+// The numbers of the rows beside the points, where there is room; the chosen one's first.
 std::string numbersScript(const std::vector<const Candidate*>& rows, const GlanceFrame& frame) {
     std::vector<std::size_t> order(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return frame.spot(*rows[a]).x < frame.spot(*rows[b]).x;
-    });
+    std::iota(order.begin(), order.end(), std::size_t(0));
+    std::stable_partition(order.begin(), order.end(),
+                          [&](std::size_t i) { return rows[i]->rung == Rung::chosen; });
     std::vector<Spot> spots;
     for (const std::size_t i : order)
         spots.push_back(frame.spot(*rows[i]));
     const auto places = numberPlaces(spots, 0, GlanceFrame::up);
     std::string script;
-    for (std::size_t k = 0; k < order.size(); ++k)
-        if (places[k]) {
-            const double x = places[k]->x / GlanceFrame::across,
-                         y = 1 - (places[k]->y - 4) / GlanceFrame::up;
-            const Candidate& candidate = *rows[order[k]];
-            const std::string number = std::to_string(order[k] + 1);
-            script += format(
-                "set label {} {} at graph {:.4f}, graph {:.4f} center font ',7' tc "
-                "rgb '{}'\n",
-                k + 1, candidate.rung == Rung::chosen ? gnuplotBold(number) : gnuplotText(number),
-                x, y, colourOf(candidate));
-            if (places[k]->far)
-                script += format("set arrow {} from graph {:.4f}, graph {:.4f} to graph {:.4f}, "
-                                 "graph {:.4f} nohead lw 0.5 lc rgb '#aaaaaa'\n",
-                                 k + 10, x, y + 0.02, spots[k].x / GlanceFrame::across,
-                                 1 - spots[k].y / GlanceFrame::up);
-        }
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        if (!places[k] || places[k]->far)
+            continue;
+        const Candidate& candidate = *rows[order[k]];
+        const std::string number = std::to_string(order[k] + 1);
+        script += format("set label {} {} at graph {:.4f}, graph {:.4f} center font ',7' tc rgb "
+                         "'{}'\n",
+                         k + 1,
+                         candidate.rung == Rung::chosen ? gnuplotBold(number) : gnuplotText(number),
+                         places[k]->x / GlanceFrame::across,
+                         1 - (places[k]->y - 4) / GlanceFrame::up, colourOf(candidate));
+    }
     return script;
 }
 
-std::string pointsOf(const Choice& choice, double least, const char* colour) {
+std::string pointsOf(const Choice& choice, const GlanceFrame& frame, const char* colour) {
     std::string lines;
     for (const Candidate& candidate : choice.candidates)
         if ((candidate.rung == Rung::glance ? grey : colourOf(candidate)) == colour)
-            lines += format("{} {}\n", std::max(candidate.glanceMilliseconds, least),
-                            candidate.glanceRmse);
+            lines += format("{} {}\n", frame.milliseconds(candidate), candidate.glanceRmse);
     return lines;
 }
 
-std::string frontOf(const Choice& choice, double least) {
+std::string frontOf(const Choice& choice, const GlanceFrame& frame) {
     std::vector<ParetoPoint> points;
     for (const Candidate& candidate : choice.candidates)
-        points.push_back({std::max(candidate.glanceMilliseconds, least), candidate.glanceRmse, ""});
+        points.push_back({frame.milliseconds(candidate), candidate.glanceRmse, ""});
     std::string lines;
     for (const std::size_t i : paretoFront(points))
         lines += format("{} {}\n", points[i].milliseconds, points[i].error);
     return lines;
 }
 
+// What is beyond these lines was left out.
+std::string farOverScript(const Budget& budget) {
+    std::string script;
+    if (budget.rmse)
+        script += format("set arrow 1 from graph 0, first {0} to graph 1, first {0} nohead "
+                         "dashtype 3 lc rgb '{1}'\nset label 201 {2} at graph 0.995, first {0} "
+                         "right offset 0, 0.5 font ',7.5' tc rgb '{1}'\n",
+                         farOver(*budget.rmse), orange,
+                         gnuplotText(format("far over the limit of {:.4g}", *budget.rmse)));
+    if (budget.milliseconds)
+        script += format("set arrow 2 from first {0}, graph 0 to first {0}, graph 1 nohead "
+                         "dashtype 3 lc rgb '{1}'\nset label 202 {2} at first {0}, graph 0.04 left "
+                         "offset 0.5, 0 font ',7.5' tc rgb '{1}'\n",
+                         glanceFactor * *budget.milliseconds, orange,
+                         gnuplotText(format("far over {:g} ms", *budget.milliseconds)));
+    return script;
+}
+
 std::string glanceScript(const Budget& budget, const Choice& choice,
                          const std::vector<const Candidate*>& rows, const Layout& layout) {
     const GlanceFrame frame = glanceFrameOf(budget, choice);
-    const double least = leastOf(choice);
     std::string script =
-        margins(0.09, 0.865, layout.glanceLow, layout.glanceTop) +
-        format("set logscale x\nset xrange [{}:{}]\nset yrange [0:{}]\nset ytics autofreq format "
-               "'%g' scale 1\nset xlabel {} font ',7.5' offset 0, 0.4\nset ylabel {} font ',7.5' "
-               "offset 1.5\nset label 200 {} at graph 0, graph 1 left offset 0, 0.7\n",
-               frame.low, frame.high, frame.top,
-               gnuplotText("milliseconds, median of a few frames (logarithmic; free ones at the "
-                           "left edge)"),
+        margins(0.08, 0.86, layout.glanceLow, layout.glanceTop) + plot::ticks("x", frame.times) +
+        format("set yrange [0:{}]\nunset ytics\nset ytics {} nomirror out scale 1 font ',7.5'\n"
+               "set xlabel {} font ',7.5' offset 0, 0.4\nset ylabel {} font ',7.5' offset 1.5\n"
+               "set label 200 {} at graph 0, graph 1 left offset 0, 0.7\n",
+               frame.top, tickStep(frame.top),
+               gnuplotText("milliseconds, the fastest of a few frames (logarithmic; free ones at "
+                           "the left edge)"),
                gnuplotText("RMSE"),
                gnuplotBold("All candidates at a glance: fitted on one small training view, seen on "
                            "another")) +
-        numbersScript(rows, frame) + "set key outside right top samplen 1 font ',7.5' width -4\n";
-    if (budget.rmse)
-        script += format("set arrow 1 from graph 0, first {0} to graph 1, first {0} nohead "
-                         "dashtype 2 lw 1.5 lc rgb '{1}'\nset label 201 {2} at graph 0.995, first "
-                         "{0} right offset 0, 0.5 font ',7.5' tc rgb '{1}'\n",
-                         *budget.rmse, orange, gnuplotText(format("limit {:.4g}", *budget.rmse)));
+        numbersScript(rows, frame) +
+        format("set key at screen 0.865, screen {} left top samplen 0.3 font ',7.5'\n",
+               layout.glanceTop) +
+        farOverScript(budget);
     std::string plots = "plot '-' using 1:2 with steps lc rgb '#bbbbbb' notitle",
-                data = frontOf(choice, least) + "e\n";
-    const std::pair<const char*, const char*> series[] = {{grey, "left out"},
-                                                          {orange, "measured, failed"},
-                                                          {blue, "measured, would do"},
-                                                          {green, "chosen"}};
+                data = frontOf(choice, frame) + "e\n";
+    const std::pair<const char*, const char*> series[] = {
+        {grey, "left out"}, {orange, "measured, fails"}, {blue, "would do"}, {green, "chosen"}};
     for (const auto& [colour, title] : series)
-        if (const std::string lines = pointsOf(choice, least, colour); !lines.empty()) {
+        if (const std::string lines = pointsOf(choice, frame, colour); !lines.empty()) {
             plots += format(", '-' using 1:2 with points pt {} ps {} lc rgb '{}' title {}",
                             colour == grey ? 6 : 7, colour == green ? 0.8 : 0.5, colour,
                             gnuplotText(title));
@@ -348,16 +391,15 @@ std::string glanceScript(const Budget& budget, const Choice& choice,
 } // namespace
 
 Figure choiceFigure(const SweepStudy& study, const Budget& budget, const Choice& choice) {
-    const std::vector<const Candidate*> rows = rowsOf(budget, choice);
+    const std::vector<const Candidate*> all = rowsOf(budget, choice), rows = drawnOf(all);
     const Headline headline = headlineOf(study, budget, choice);
     const Layout layout(headline, rows.size());
     Figure figure{"choice", headline.answer, plot::style, width, layout.height};
     figure.script +=
         "set multiplot\nset xtics nomirror out font ',7.5'\nunset key\n" + headScript(layout);
     if (!rows.empty())
-        figure.script += rowsScript(budget, choice, rows, layout);
-    else
-        figure.script += "";
+        figure.script +=
+            rowsScript(budget, choice, rows, layout) + restScript(all.size() - rows.size(), layout);
     figure.script += glanceScript(budget, choice, rows, layout) + "unset multiplot\n";
     return figure;
 }

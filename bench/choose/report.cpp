@@ -7,6 +7,7 @@
 #include "bench/choose/study_file.h"
 #include "bench/choose/words.h"
 #include "renderer/techniques/settings.h"
+#include "report/lettering.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -127,18 +128,48 @@ std::string dearerOnes(const Choice& choice) {
                         : "What dearer ones would add:\n" + text;
 }
 
+// Candidates with why they fell out: each on a line of its own, or together those of one reason.
+std::string reasons(const std::vector<const Candidate*>& candidates) {
+    std::vector<std::pair<std::string, std::vector<const Candidate*>>> byVerdict;
+    for (const Candidate* candidate : candidates) {
+        const std::string& verdict =
+            candidate->verdict.empty() ? "dearer than others that failed" : candidate->verdict;
+        auto known = std::find_if(byVerdict.begin(), byVerdict.end(),
+                                  [&](const auto& each) { return each.first == verdict; });
+        if (known == byVerdict.end())
+            known = byVerdict.insert(known, {verdict, {}});
+        known->second.push_back(candidate);
+    }
+    std::string text;
+    for (const auto& [verdict, some] : byVerdict) {
+        if (some.size() == 1) {
+            text += line(*some.front(), verdict);
+            continue;
+        }
+        std::string names;
+        for (const Candidate* candidate : some)
+            names += (names.empty() ? "" : ", ") + nameOf(*candidate);
+        text += "  " + verdict + ":\n";
+        for (const std::string& part : wrapped(names, 96))
+            text += "    " + part + "\n";
+    }
+    return text;
+}
+
 // Why cheaper ones were not chosen; asked for the best, why better ones were not.
 std::string othersNot(const Budget& budget, const Choice& choice) {
-    std::string text;
+    std::vector<const Candidate*> others;
     const Candidate& chosen = choice.candidates[*choice.chosen];
-    for (const Candidate& candidate : choice.candidates)
-        if (!candidate.verdict.empty() && (budget.best ? candidate.glanceRmse < chosen.glanceRmse
-                                                       : costOf(candidate) < costOf(chosen)))
-            text += line(candidate, candidate.verdict);
-    return text.empty()
-               ? ""
-               : fmt::format("{}, and why not:\n{}",
-                             budget.best ? "Better ones at a glance" : "Cheaper ones", text);
+    for (const Candidate& candidate : choice.candidates) {
+        const bool better = budget.best ? candidate.rung != Rung::glance &&
+                                              worth(budget, candidate) < worth(budget, chosen)
+                                        : costOf(candidate) < costOf(chosen);
+        if (better && !candidate.verdict.empty())
+            others.push_back(&candidate);
+    }
+    return others.empty() ? ""
+                          : fmt::format("{} ones, and why not:\n{}",
+                                        budget.best ? "Better" : "Cheaper", reasons(others));
 }
 
 std::string alikeOnes(const Budget& budget, const Choice& choice) {
@@ -158,12 +189,11 @@ std::string nearestOnes(const Budget& budget, const Choice& choice) {
         if (const std::string words = whatWouldAdmit(budget, *candidate); !words.empty())
             text += fmt::format("  {:>37} {}\n", "", words);
     }
-    text += "Not measured:\n";
+    std::vector<const Candidate*> others;
     for (const Candidate& candidate : choice.candidates)
         if (candidate.rung == Rung::glance)
-            text += line(candidate, candidate.verdict.empty() ? "dearer than others that failed"
-                                                              : candidate.verdict);
-    return text;
+            others.push_back(&candidate);
+    return text + (others.empty() ? "" : "Not measured:\n" + reasons(others));
 }
 
 } // namespace
@@ -174,7 +204,8 @@ std::string choiceText(const SweepStudy& study, const Budget& budget, const Choi
     if (!choice.chosen)
         text += nearestOnes(budget, choice);
     else
-        text += alikeOnes(budget, choice) + othersNot(budget, choice) + dearerOnes(choice);
+        text += alikeOnes(budget, choice) + othersNot(budget, choice) +
+                (budget.best ? "" : dearerOnes(choice));
     return text + fmt::format("The search took {:.0f} s besides references of held-out views.\n",
                               choice.seconds);
 }

@@ -40,11 +40,15 @@ std::string resultsInWords(const Budget& budget, const Candidate& candidate) {
 }
 
 std::string countsInWords(const SweepStudy& study, const Choice& choice) {
-    const auto measured =
-        std::count_if(choice.candidates.begin(), choice.candidates.end(),
-                      [](const Candidate& each) { return each.rung != Rung::glance; });
-    return format("{} candidates, {} of them measured on {} held-out views",
-                  choice.candidates.size(), measured, study.match.test.size());
+    std::size_t measured = 0, failed = 0;
+    for (const Candidate& candidate : choice.candidates) {
+        measured += candidate.rung != Rung::glance;
+        failed += candidate.rung != Rung::glance && !candidate.verdict.empty();
+    }
+    return format(
+        "Of {} candidates, {} were measured on {} held-out views, of which {} missed a limit",
+        choice.candidates.size(), measured, study.match.test.size(),
+        failed ? std::to_string(failed) : "none");
 }
 
 Headline nothingFound(const SweepStudy& study, const Budget& budget, const Choice& choice) {
@@ -54,7 +58,7 @@ Headline nothingFound(const SweepStudy& study, const Budget& budget, const Choic
         headline.reason =
             format("All {} candidates fell out at a glance.", choice.candidates.size());
     else
-        headline.reason = format("Of {}, {} came nearest: {}. {}", countsInWords(study, choice),
+        headline.reason = format("{}. {} came nearest: {}. {}", countsInWords(study, choice),
                                  nameOf(*nearest.front()), resultsInWords(budget, *nearest.front()),
                                  whatWouldAdmit(budget, *nearest.front()));
     return headline;
@@ -84,12 +88,11 @@ Headline headlineOf(const SweepStudy& study, const Budget& budget, const Choice&
     if (!choice.chosen)
         return nothingFound(study, budget, choice);
     const Candidate& chosen = choice.candidates[*choice.chosen];
-    Headline headline{budget.best
-                          ? format("{} has the best {} with {}.", nameOf(chosen),
-                                   budget.best->spelt, inWords(budget))
-                          : format("{} is the cheapest with {}.", nameOf(chosen), inWords(budget)),
-                      format("Of {}, it takes {}.", countsInWords(study, choice),
-                             resultsInWords(budget, chosen))};
+    Headline headline{
+        budget.best ? format("{} has the best {} with {}.", nameOf(chosen), budget.best->spelt,
+                             inWords(budget))
+                    : format("{} is the cheapest with {}.", nameOf(chosen), inWords(budget)),
+        format("{}. It takes {}.", countsInWords(study, choice), resultsInWords(budget, chosen))};
     if (!choice.alike.empty()) {
         const Candidate& cheapest = choice.candidates[choice.alike.front()];
         if (cheapest.milliseconds < chosen.milliseconds)
