@@ -89,6 +89,7 @@ int simulate(const Arguments& arguments, const Study& study) {
         display.emplace(displayOptions(arguments, study), curtain(study));
         presenter.emplace(*display, study, "Simulated participant: answers do not count");
     }
+    const Manifest* const seen = arguments.observer == "jod" ? &study.manifest : nullptr;
     Progress progress("simulated participants", count);
     for (int i = 1; i <= count; ++i) {
         const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
@@ -96,10 +97,10 @@ int simulate(const Arguments& arguments, const Study& study) {
             throw Error(problem + "; or another data folder: --data DIR");
         const std::uint64_t seed = arguments.seed.value_or(protocol.seed);
         if (presenter) {
-            VisualObserver observer(*presenter, protocol, seed, session.participant);
+            VisualObserver observer(*presenter, protocol, seed, session.participant, seen);
             runSession(study, folder, session, observer);
         } else {
-            SimulatedObserver observer(protocol, seed, session.participant);
+            SimulatedObserver observer(protocol, seed, session.participant, seen);
             runSession(study, folder, session, observer);
         }
         progress.update(i, session.participant);

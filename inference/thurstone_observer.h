@@ -1,6 +1,6 @@
 #pragma once
 
-#include "inference/scales.h"
+#include "inference/jod.h"
 
 #include <numbers>
 
