@@ -122,9 +122,24 @@ TEST(Eyes, ChooseByPredictedJodWithLapsesAndBias) {
     }
 }
 
-TEST(Eyes, OneJodIsThreeQuartersAndLapsesGuess) {
-    auto sees = answersTo({{{"a", 9}, {"b", 10}}}, pair);
-    expectShare(sees["0 ab 2"] + sees["0 ba 1"], people, .75, "1 JOD");
+// So many looks that 1 in place of lookDeviation would be seen: 76.0 %.
+TEST(Eyes, SeeOneJodInThreeQuartersOfLooks) {
+    constexpr int looks = 200'000;
+    const std::vector<Jods> conditions = {{{"a", 9}, {"b", 10}}};
+    const Protocol protocol = studyOf(conditions, pair);
+    Eyes eyes(protocol, imagesOf(conditions), Random(1, "eyes"));
+    Question which;
+    which.images = true;
+    which.options = {"first", "second"};
+    int better = 0;
+    for (int i = 0; i < looks; ++i) {
+        eyes.look({1, 1, {PlannedTrial::Kind::main, 0, {0, 1}}, {"a", "b"}});
+        better += eyes.answer(which, {}) == 2;
+    }
+    expectShare(better, looks, .75, "1 JOD");
+}
+
+TEST(Eyes, GuessInEveryLapseAndFollowAnUtterBias) {
     auto lapses = answersTo({{{"a", 2}, {"b", 10}}}, pair, "", "[simulation]\nlapse = 1\n");
     expectShare(lapses["0 ab 2"], people / 2, .5, "lapse of 1");
     auto leans = answersTo({{{"a", 8}, {"b", 9}}}, pair, "", "[simulation]\npositionBias = 0.5\n");
@@ -202,6 +217,14 @@ TEST(Eyes, FindTheRightAnswerWhicheverIsBetter) {
         expectShare(counts[isA ? "0 ab 1" : "0 ab 2"] + counts[isA ? "0 ba 2" : "0 ba 1"], people,
                     .75, correct);
     }
+}
+
+// Of boosted triplets, whose images take turns with the source: which flickers more?
+TEST(Eyes, SeeTheWorseImageFlicker) {
+    auto counts = answersTo({{{"a", 9}, {"b", 10}, {"r", 10}}},
+                            asking("options = [\"first\", \"second\"], images = true"), "",
+                            "[boost]\nreference = \"r\"\n");
+    expectShare(counts["0 ab 1"] + counts["0 ba 2"], people, .75, "a flickers");
 }
 
 // The differences' sum and difference are independent normals. R: s as above; p <- pnorm((7 - 10) /
