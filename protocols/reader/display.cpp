@@ -94,10 +94,9 @@ Display displayOf(std::span<const std::string> words) {
             const std::vector<std::string> known = namesOf(displays());
             const auto row = std::find(known.begin(), known.end(), word);
             if (row == known.end())
-                throw Error(fmt::format("--display: expected {}, or NUMBER of {}, as in "
-                                        "\"peak=120\"; found \"{}\"{}",
-                                        fmt::join(known, ", "), fmt::join(keys, ", "), word,
-                                        suggestion(word, known)));
+                throw Error(fmt::format("--display: expected the name of a display or a number of "
+                                        "it, as in \"peak=120\" ({}); found \"{}\"{}",
+                                        fmt::join(keys, ", "), word, suggestion(word, known)));
             display = displays()[static_cast<std::size_t>(row - known.begin())];
             continue;
         }

@@ -350,6 +350,10 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
         protocol.exclusions = parseExclusions(std::move(*exclusions), protocol);
     if (auto screen = root.table("screen"))
         protocol.screen = parseScreenNeeds(std::move(*screen));
+    const toml::table nothing;
+    protocol.display =
+        parseDisplay(root.table("display").value_or(TomlTable(nothing, "", "display")),
+                     protocol.screen.distanceCm);
     if (auto keys = root.table("keys"))
         protocol.keys = parseKeys(std::move(*keys));
     protocol.before = parsePages(root, "before");

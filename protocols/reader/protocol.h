@@ -2,6 +2,7 @@
 
 #include "protocols/reader/boost.h"
 #include "protocols/reader/claims.h"
+#include "protocols/reader/display.h"
 #include "protocols/reader/keys.h"
 #include "protocols/reader/ordering.h"
 #include "protocols/reader/screen.h"
@@ -75,6 +76,7 @@ struct Protocol {
     std::vector<Phase> before, after; // pages around the trials, each shown once
     Keys keys;
     ScreenNeeds screen;
+    Display display; // on which differences between images are predicted
     Ordering ordering;
     std::vector<Claim> claims;
     ExclusionRules exclusions;

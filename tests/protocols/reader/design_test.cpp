@@ -96,6 +96,10 @@ first = "first"
 second = "second"
 thanks = "Thanks"
 
+[display]
+name = "standard_4k"
+peak = 150
+
 [simulation]
 positionBias = 0.01
 view = { mean = 3.1, deviation = 0.81, tail = 2.1 }
@@ -168,6 +172,8 @@ const Turn turns[] = {
     {"second = \"second\"", "second = \"2nd\"", Part::texts},
     {"Thanks", "Bye", Part::texts},
     {"simulatedPreference = 0.7", "simulatedPreference = 0.8", Part::texts},
+    {"standard_4k", "laptop", Part::texts},
+    {"peak = 150", "contrast = 150", Part::texts},
     {"positionBias = 0.01", "positionBias = 0.02", Part::texts},
     {"mean = 3.1", "mean = 3.2", Part::texts},
     {"deviation = 0.81", "deviation = 0.82", Part::texts},
