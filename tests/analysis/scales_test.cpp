@@ -235,7 +235,7 @@ TEST(ScalesOfPairs, HoldChoicesAgainstTheStimuli) {
     const ScaleFindings scales = scaleFindings(tallies, nullptr, &stimuli);
     const ScaleResult& curve = resultOf(scales, "psychometric", "sky");
     ASSERT_TRUE(curve.curve) << curve.notes.front();
-    EXPECT_EQ(curve.unit, stimulusDifferenceName);
+    EXPECT_EQ(curve.unit, "difference in mean occlusion");
     EXPECT_NEAR(curve.items[0].value, 0, 1e-3);
     EXPECT_LT(*curve.items[0].interval.low, -0.01);
     EXPECT_GT(*curve.items[0].interval.high, 0.01);
