@@ -23,48 +23,47 @@ constexpr double meanPenalty = 100;
 // Errors that differ by less are the same: where the data do not say, what was given stays.
 constexpr double tie = 1e-9;
 
-// What a remap is fitted by: logarithms of the values that are free.
+// What a remap is fitted by: the logarithm of the one value that is free; or, where both are, the
+// logarithm of intensity x |power| (how fast visibility falls at first) and asinh(1 / power) (how
+// it goes on: above 0 to black, at 0 as exp(), below 0 flattening).
 class RemapObjective {
   public:
     RemapObjective(const Comparison& comparison, const Tunable& tunable, Criterion criterion)
-        : comparison_(comparison), start_(tunable.start), criterion_(criterion) {
-        if (tunable.intensity)
-            free_.push_back({&Remap::intensity, *tunable.intensity});
-        if (tunable.power)
-            free_.push_back({&Remap::power, *tunable.power});
-        // Mean occlusion grows with either value, so the first follows from the rest.
-        if (criterion == Criterion::equalMean && !free_.empty()) {
-            solved_ = free_.front();
-            free_.erase(free_.begin());
+        : comparison_(comparison), tunable_(tunable), criterion_(criterion) {
+        const Remap& start = tunable.start;
+        if (bothFree()) {
+            const double bend = std::asinh(1 / tunable.power->low);
+            axes_ = {{std::log(0.01), std::log(1000), std::log(start.intensity * size(start))},
+                     {-bend, bend, std::asinh(1 / start.power)}};
+        } else if (const auto& range = tunable.intensity ? tunable.intensity : tunable.power) {
+            axes_ = {{std::log(range->low), std::log(range->high),
+                      std::log(tunable.intensity ? start.intensity : size(start))}};
+        }
+        for (Axis& axis : axes_)
+            axis.start = std::clamp(axis.start, axis.low, axis.high);
+        // Mean occlusion grows along the first axis, so that follows from the rest.
+        if (criterion == Criterion::equalMean && !axes_.empty()) {
+            solved_ = axes_.front();
+            axes_.erase(axes_.begin());
         }
     }
 
-    std::size_t dimensions() const { return free_.size(); }
-    std::vector<double> bounds(double Range::*end) const {
-        std::vector<double> result;
-        for (const Free& value : free_)
-            result.push_back(std::log(value.range.*end));
-        return result;
-    }
-    std::vector<double> start() const {
-        std::vector<double> result;
-        for (const Free& value : free_)
-            result.push_back(
-                std::log(std::clamp(start_.*value.member, value.range.low, value.range.high)));
-        return result;
+    std::size_t dimensions() const { return axes_.size(); }
+    std::vector<double> low() const { return ofAxes(&Axis::low); }
+    std::vector<double> high() const { return ofAxes(&Axis::high); }
+    std::vector<double> start() const { return ofAxes(&Axis::start); }
+
+    Remap remap(const std::vector<double>& at) const {
+        if (!solved_)
+            return at == start() ? tunable_.start : remapOf(at);
+        std::vector<double> all{0};
+        all.insert(all.end(), at.begin(), at.end());
+        all[0] = solve(all);
+        return remapOf(all);
     }
 
-    Remap remap(const std::vector<double>& logarithms) const {
-        Remap result = start_;
-        for (std::size_t i = 0; i < free_.size(); ++i)
-            result.*free_[i].member = std::exp(logarithms[i]);
-        if (solved_)
-            result.*solved_->member = solve(result);
-        return result;
-    }
-
-    double operator()(const std::vector<double>& logarithms) const {
-        const Remap tried = remap(logarithms);
+    double operator()(const std::vector<double>& at) const {
+        const Remap tried = remap(at);
         double error = comparison_.meanSquare(tried);
         if (criterion_ == Criterion::equalMean) {
             const double difference = comparison_.meanDifference(tried);
@@ -74,39 +73,63 @@ class RemapObjective {
     }
 
   private:
-    struct Free {
-        double Remap::*member;
-        Range range;
+    struct Axis {
+        double low, high, start;
     };
 
-    // The value that gives the target's mean, or the end of the range that comes nearest.
-    double solve(Remap remap) const {
-        const auto difference = [&](double logarithm) {
-            remap.*solved_->member = std::exp(logarithm);
-            return comparison_.meanDifference(remap);
+    static double size(const Remap& remap) { return std::abs(remap.power); }
+    bool bothFree() const { return tunable_.intensity && tunable_.power; }
+    std::vector<double> ofAxes(double Axis::*value) const {
+        std::vector<double> result;
+        for (const Axis& axis : axes_)
+            result.push_back(axis.*value);
+        return result;
+    }
+
+    // Of all axes, the solved one included.
+    Remap remapOf(const std::vector<double>& at) const {
+        Remap result = tunable_.start;
+        if (bothFree()) {
+            double inverse = std::sinh(at[1]);
+            inverse = std::copysign(std::max(std::abs(inverse), 1 / tunable_.power->high), inverse);
+            result.power = 1 / inverse;
+            result.intensity = std::clamp(std::exp(at[0]) * std::abs(inverse),
+                                          tunable_.intensity->low, tunable_.intensity->high);
+        } else if (tunable_.intensity) {
+            result.intensity = std::exp(at[0]);
+        } else if (tunable_.power) {
+            result.power = std::copysign(std::exp(at[0]), result.power);
+        }
+        return result;
+    }
+
+    // Where on the solved axis the target's mean is met, or the end that comes nearest.
+    double solve(std::vector<double> at) const {
+        const auto difference = [&](double value) {
+            at[0] = value;
+            return comparison_.meanDifference(remapOf(at));
         };
-        const double low = std::log(solved_->range.low), high = std::log(solved_->range.high);
-        const double atLow = difference(low), atHigh = difference(high);
+        const double atLow = difference(solved_->low), atHigh = difference(solved_->high);
         if (atLow * atHigh >= 0)
-            return std::abs(atLow) < std::abs(atHigh) ? solved_->range.low : solved_->range.high;
+            return std::abs(atLow) < std::abs(atHigh) ? solved_->low : solved_->high;
         std::uintmax_t steps = 60;
-        const auto [left, right] =
-            boost::math::tools::toms748_solve(difference, low, high, atLow, atHigh,
-                                              boost::math::tools::eps_tolerance<double>(30), steps);
-        return std::exp((left + right) / 2);
+        const auto [left, right] = boost::math::tools::toms748_solve(
+            difference, solved_->low, solved_->high, atLow, atHigh,
+            boost::math::tools::eps_tolerance<double>(30), steps);
+        return (left + right) / 2;
     }
 
     const Comparison& comparison_;
-    Remap start_;
+    Tunable tunable_;
     Criterion criterion_;
-    std::vector<Free> free_;
-    std::optional<Free> solved_;
+    std::vector<Axis> axes_;
+    std::optional<Axis> solved_;
 };
 
 // The best point of a grid over the bounds, and the start.
 std::vector<double> coarsely(const RemapObjective& objective) {
-    constexpr int steps = 9;
-    const auto low = objective.bounds(&Range::low), high = objective.bounds(&Range::high);
+    constexpr int steps = 13;
+    const std::vector<double> low = objective.low(), high = objective.high();
     std::vector<double> best = objective.start();
     double least = objective(best);
     int points = 1;
@@ -128,8 +151,8 @@ std::vector<double> coarsely(const RemapObjective& objective) {
 } // namespace
 
 double remapped(double visibility, const Remap& remap) {
-    return std::min(std::pow(std::max(1 - remap.intensity * (1 - visibility), 0.0), remap.power),
-                    1.0);
+    const double occlusion = std::copysign(remap.intensity, remap.power) * (1 - visibility);
+    return std::min(std::pow(std::max(1 - occlusion, 0.0), remap.power), 1.0);
 }
 
 void Comparison::add(const Image& image, double probe, const Image& target,
@@ -187,7 +210,7 @@ FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Crite
                 return (*static_cast<RemapObjective*>(data))(x);
             },
             &objective);
-        const auto low = objective.bounds(&Range::low), high = objective.bounds(&Range::high);
+        const std::vector<double> low = objective.low(), high = objective.high();
         search.set_lower_bounds(low);
         search.set_upper_bounds(high);
         search.set_initial_step(0.3);

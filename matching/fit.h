@@ -15,7 +15,8 @@ struct Range {
 };
 
 // The last step of every technique (renderer/techniques/technique.h): visibility v becomes
-// max(0, 1 - intensity (1 - v))^power, at most 1.
+// max(0, 1 - intensity (1 - v))^power, or with a power below 0 (1 + intensity (1 - v))^power, at
+// most 1.
 struct Remap {
     double intensity = 1, power = 1;
 };
@@ -50,7 +51,10 @@ enum class Criterion {
     equalMean // least squares among the remaps that give the target's mean
 };
 
-// Which values may change, and between which bounds; the others stay as they are in `start`.
+// Which values may change, and between which bounds; the others stay as they are in `start`. The
+// power's are of its size: it keeps its sign where the intensity is held. Where both are free they
+// are fitted as their product and 1 / power, which passes through 0: that is exp(), for which the
+// bound of the power's size stands.
 struct Tunable {
     Remap start;
     std::optional<Range> intensity, power;

@@ -118,8 +118,8 @@ class Freedom {
                      std::min(high, static_cast<double>(parameter->high))};
     }
     std::optional<Range> multiplier() const { return range("radiusMultiplier", 1.0 / 32, 32); }
-    std::optional<Range> intensity() const { return range("intensity", 0.01, 100); }
-    std::optional<Range> power() const { return range("power", 0.1, 10); }
+    std::optional<Range> intensity() const { return range("intensity", 1e-4, 100); }
+    std::optional<Range> power() const { return range("power", 0.1, 64); } // of its size
     double start(std::string_view name) const {
         return settings_.has(name) ? static_cast<double>(settings_[name]) : 1;
     }
@@ -382,16 +382,18 @@ Values Matching::fit(const TechniqueSetting& setting, std::string& note) {
         best = fitMultiplier(error, best, *range);
     error(best);
     Values values;
-    const auto put = [&](const char* name, const std::optional<Range>& range, double value) {
+    const auto put = [&](const char* name, const std::optional<Range>& range, double value,
+                         bool isExponential = false) {
         if (!range)
             return;
-        values[name] = std::clamp(significant(value), range->low, range->high);
-        if (value < range->low * 1.001 || value > range->high * 0.999)
+        const double size = std::abs(value);
+        values[name] = std::copysign(std::clamp(significant(size), range->low, range->high), value);
+        if (size < range->low * 1.001 || (size > range->high * 0.999 && !isExponential))
             note += fmt::format("{}{} ended at its bound", note.empty() ? "" : "; ", name);
     };
     put("radiusMultiplier", freedom.multiplier(), best);
     put("intensity", freedom.intensity(), tried[best].remap.intensity);
-    put("power", freedom.power(), tried[best].remap.power);
+    put("power", freedom.power(), tried[best].remap.power, freedom.intensity().has_value());
     return values;
 }
 

@@ -125,7 +125,9 @@ struct Technique {
 
 // Parameters that mean the same in every technique that has them, so the table's users need not
 // know the technique: `radius` (metres) is multiplied by `radiusMultiplier` before the shader sees
-// it; the last pass's visibility v becomes max(0, 1 - intensity (1 - v))^power, clamped to [0, 1].
+// it; the last pass's visibility v becomes max(0, 1 - intensity (1 - v))^power or, where the power
+// is below 0, (1 + intensity (1 - v))^power, clamped to [0, 1]. As the power grows to either side,
+// both tend to exp(-intensity |power| (1 - v)), so that no end of the one is one of all curves.
 // Matching (matching/match.h) fits the latter three. `guardBand` is the share of the image's height
 // that is rendered beyond each of its borders for the technique's eyes only. `downscale` runs all
 // passes on every nth pixel and spreads the result back (renderer/techniques/reduction.h); what
