@@ -23,24 +23,35 @@ constexpr double meanPenalty = 100;
 // Errors that differ by less are the same: where the data do not say, what was given stays.
 constexpr double tie = 1e-9;
 
+// A curve that flattens must save a tenth of the mean square. What it saves less than that on
+// training views, it often loses on others (docs/techniques.md).
+constexpr double flatteningCost = 1 / 0.9;
+
+// Those of powers above 0 and below; exp() is between, and among both.
+enum class Curves { toBlack, flattening };
+
 // What a remap is fitted by: the logarithm of the one value that is free; or, where both are, the
 // logarithm of intensity x |power| (how fast visibility falls at first) and asinh(1 / power) (how
 // it goes on: above 0 to black, at 0 as exp(), below 0 flattening).
 class RemapObjective {
   public:
-    RemapObjective(const Comparison& comparison, const Tunable& tunable, Criterion criterion)
+    RemapObjective(const Comparison& comparison, const Tunable& tunable, Curves curves,
+                   Criterion criterion)
         : comparison_(comparison), tunable_(tunable), criterion_(criterion) {
         const Remap& start = tunable.start;
         if (bothFree()) {
             const double bend = std::asinh(1 / tunable.power->low);
             axes_ = {{std::log(0.01), std::log(1000), std::log(start.intensity * size(start))},
-                     {-bend, bend, std::asinh(1 / start.power)}};
+                     {curves == Curves::flattening ? -bend : 0.0,
+                      curves == Curves::toBlack ? bend : 0.0, std::asinh(1 / start.power)}};
         } else if (const auto& range = tunable.intensity ? tunable.intensity : tunable.power) {
             axes_ = {{std::log(range->low), std::log(range->high),
                       std::log(tunable.intensity ? start.intensity : size(start))}};
         }
-        for (Axis& axis : axes_)
+        for (Axis& axis : axes_) {
+            startsInside_ &= axis.low <= axis.start && axis.start <= axis.high;
             axis.start = std::clamp(axis.start, axis.low, axis.high);
+        }
         // Mean occlusion grows along the first axis, so that follows from the rest.
         if (criterion == Criterion::equalMean && !axes_.empty()) {
             solved_ = axes_.front();
@@ -55,7 +66,7 @@ class RemapObjective {
 
     Remap remap(const std::vector<double>& at) const {
         if (!solved_)
-            return at == start() ? tunable_.start : remapOf(at);
+            return startsInside_ && at == start() ? tunable_.start : remapOf(at);
         std::vector<double> all{0};
         all.insert(all.end(), at.begin(), at.end());
         all[0] = solve(all);
@@ -124,6 +135,7 @@ class RemapObjective {
     Criterion criterion_;
     std::vector<Axis> axes_;
     std::optional<Axis> solved_;
+    bool startsInside_ = true;
 };
 
 // The best point of a grid over the bounds, and the start.
@@ -146,6 +158,34 @@ std::vector<double> coarsely(const RemapObjective& objective) {
         }
     }
     return best;
+}
+
+FittedRemap fitAmong(Curves curves, const Comparison& comparison, const Tunable& tunable,
+                     Criterion criterion) {
+    RemapObjective objective(comparison, tunable, curves, criterion);
+    std::vector<double> at = coarsely(objective);
+    if (objective.dimensions() > 0) {
+        nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(objective.dimensions()));
+        search.set_min_objective(
+            [](const std::vector<double>& x, std::vector<double>&, void* data) {
+                return (*static_cast<RemapObjective*>(data))(x);
+            },
+            &objective);
+        const std::vector<double> low = objective.low(), high = objective.high();
+        search.set_lower_bounds(low);
+        search.set_upper_bounds(high);
+        search.set_initial_step(0.3);
+        search.set_xtol_abs(1e-4);
+        search.set_maxeval(500);
+        std::vector<double> moved = at;
+        for (std::size_t i = 0; i < at.size(); ++i) // a grid's end, rounded, may lie outside
+            moved[i] = std::clamp(at[i], low[i], high[i]);
+        double error = 0;
+        search.optimize(moved, error);
+        if (error < objective(at) - tie)
+            at = moved;
+    }
+    return {objective.remap(at), objective(at)};
 }
 
 } // namespace
@@ -201,30 +241,12 @@ bool Comparison::constant() const {
 }
 
 FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Criterion criterion) {
-    RemapObjective objective(comparison, tunable, criterion);
-    std::vector<double> at = coarsely(objective);
-    if (objective.dimensions() > 0) {
-        nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(objective.dimensions()));
-        search.set_min_objective(
-            [](const std::vector<double>& x, std::vector<double>&, void* data) {
-                return (*static_cast<RemapObjective*>(data))(x);
-            },
-            &objective);
-        const std::vector<double> low = objective.low(), high = objective.high();
-        search.set_lower_bounds(low);
-        search.set_upper_bounds(high);
-        search.set_initial_step(0.3);
-        search.set_xtol_abs(1e-4);
-        search.set_maxeval(500);
-        std::vector<double> moved = at;
-        for (std::size_t i = 0; i < at.size(); ++i) // a grid's end, rounded, may lie outside
-            moved[i] = std::clamp(at[i], low[i], high[i]);
-        double error = 0;
-        search.optimize(moved, error);
-        if (error < objective(at) - tie)
-            at = moved;
-    }
-    return {objective.remap(at), objective(at)};
+    FittedRemap best = fitAmong(Curves::toBlack, comparison, tunable, criterion);
+    if (!tunable.intensity || !tunable.power)
+        return best;
+    FittedRemap flat = fitAmong(Curves::flattening, comparison, tunable, criterion);
+    flat.error *= flatteningCost;
+    return flat.error < best.error - tie ? flat : best;
 }
 
 double fitMultiplier(const std::function<double(double)>& error, double start, Range range) {
@@ -258,6 +280,46 @@ double fitMultiplier(const std::function<double(double)>& error, double start, R
                                           std::max(centre - 1, low) + 16,
                                           std::min(centre + 1, high) + 16, 10, evaluations);
     return std::clamp(start * std::exp2(least()), range.low, range.high);
+}
+
+std::vector<double> fitScales(const std::function<double(const std::vector<double>&)>& error,
+                              const std::vector<double>& start, const std::vector<Range>& ranges) {
+    std::vector<double> best = start;
+    double least = error(start);
+    std::function<double(const std::vector<double>&)> atOctaves = [&](const auto& x) {
+        std::vector<double> at;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            at.push_back(std::clamp(std::exp2(x[i]), ranges[i].low, ranges[i].high));
+        const double found = error(at);
+        if (found < least - tie) {
+            least = found;
+            best = at;
+        }
+        return found;
+    };
+    std::vector<double> octaves, low, high;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        octaves.push_back(std::log2(start[i]));
+        low.push_back(std::log2(ranges[i].low));
+        high.push_back(std::log2(ranges[i].high));
+    }
+    nlopt::opt search(nlopt::LN_NELDERMEAD, static_cast<unsigned>(start.size()));
+    search.set_min_objective(
+        [](const std::vector<double>& x, std::vector<double>&, void* data) {
+            return (*static_cast<decltype(atOctaves)*>(data))(x);
+        },
+        &atOctaves);
+    search.set_lower_bounds(low);
+    search.set_upper_bounds(high);
+    search.set_initial_step(0.5);
+    search.set_xtol_abs(0.03);
+    search.set_maxeval(fitScalesEvaluations);
+    double unused = 0;
+    try {
+        search.optimize(octaves, unused);
+    } catch (const nlopt::roundoff_limited&) { // flat: what was found stands
+    }
+    return best;
 }
 
 } // namespace obscura

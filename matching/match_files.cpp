@@ -82,8 +82,8 @@ std::string headerOf(const MatchStudy& study, const MatchResult& result) {
     return text +
            "# RMSE is over test views, which the fit has not seen.\n"
            "# Visibility v becomes max(0, 1 - intensity (1 - v))^power; with a power below 0,\n"
-           "# (1 + intensity (1 - v))^power. A power of 64 or -64 stands for\n"
-           "# exp(-intensity |power| (1 - v)), and is no bound.\n";
+           "# (1 + intensity (1 - v))^power. A power of 64 stands for\n"
+           "# exp(-intensity power (1 - v)), and is no bound.\n";
 }
 
 } // namespace

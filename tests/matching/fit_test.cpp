@@ -104,6 +104,21 @@ TEST(FitRemap, FlattensWhereTheTargetDoes) {
     EXPECT_LT(fitted.error, 0.5 * exponential);
 }
 
+// What is a little nearer on training views by flattening is not on others.
+TEST(FitRemap, FlattensForMoreThanALittle) {
+    const auto fitTo = [](double noise) { // that no curve can follow
+        Comparison comparison;
+        comparison.add(ramp(0, 1), 1, image([&](double t) {
+                           const bool odd = static_cast<int>(t * (pixels - 1) + 0.5) % 2 != 0;
+                           return remapped(t, {0.3, -9}) + (odd ? noise : -noise);
+                       }),
+                       all);
+        return fitRemap(comparison, bothFree, Criterion::leastSquares).remap;
+    };
+    EXPECT_NEAR(fitTo(0).power, -9, 0.1);
+    EXPECT_EQ(fitTo(0.1).power, 64);
+}
+
 // Raw visibility down to -3: clamped at black it would no longer tell how much to lighten.
 TEST(FitRemap, ReachesBelowBlackByProbing) {
     Comparison comparison;
@@ -169,6 +184,30 @@ TEST(FitMultiplier, FindsTheLeastWithFewRenderings) {
         EXPECT_NEAR(std::log2(found / truth), 0, 0.05) << truth;
         EXPECT_LE(evaluations, 18) << truth;
     }
+}
+
+// A valley that lies across the axes, as reach and falloff do.
+TEST(FitScales, FollowsAValley) {
+    int evaluations = 0;
+    const auto error = [&](const std::vector<double>& at) {
+        ++evaluations;
+        const double sum = std::log2(at[0]) + std::log2(at[1]),
+                     difference = std::log2(at[0]) - std::log2(at[1]) - 1.2;
+        return 0.01 + 0.1 * sum * sum + 0.01 * difference * difference;
+    };
+    const std::vector<double> found = fitScales(error, {1.5, 0.6}, {{0.05, 20}, {0.04, 1}});
+    EXPECT_NEAR(std::log2(found[0]), 0.6, 0.15);
+    EXPECT_NEAR(std::log2(found[1]), -0.6, 0.15);
+    EXPECT_LE(evaluations, fitScalesEvaluations + 1);
+}
+
+TEST(FitScales, KeepsTheStartAndTheRanges) {
+    const std::vector<double> start{1.5, 0.6};
+    EXPECT_EQ(fitScales([](const auto&) { return 1.0; }, start, {{0.05, 20}, {0.04, 1}}), start);
+    const auto found =
+        fitScales([](const auto& at) { return at[0] - at[1]; }, start, {{1.2, 20}, {0.04, 0.8}});
+    EXPECT_NEAR(found[0], 1.2, 1e-9);
+    EXPECT_NEAR(found[1], 0.8, 1e-9);
 }
 
 TEST(FitMultiplier, KeepsTheStartAndTheRange) {
