@@ -33,6 +33,7 @@ struct Parameter {
     std::string_view meaning;
     float value, low, high;  // default and range, both ends included
     std::string_view source; // of the default: paper and section, program, or "ours: why"
+    bool fitted = false;     // matching may move it, as it moves the radius multiplier
 };
 
 // How a pass is run. A function of the pass's name in the technique's shader gives each pixel's
@@ -128,10 +129,10 @@ struct Technique {
 // it; the last pass's visibility v becomes max(0, 1 - intensity (1 - v))^power or, where the power
 // is below 0, (1 + intensity (1 - v))^power, clamped to [0, 1]. As the power grows to either side,
 // both tend to exp(-intensity |power| (1 - v)), so that no end of the one is one of all curves.
-// Matching (matching/match.h) fits the latter three. `guardBand` is the share of the image's height
-// that is rendered beyond each of its borders for the technique's eyes only. `downscale` runs all
-// passes on every nth pixel and spreads the result back (renderer/techniques/reduction.h); what
-// sends light cannot.
+// Matching (matching/match.h) fits the latter three, and what a row says is `fitted`. `guardBand`
+// is the share of the image's height that is rendered beyond each of its borders for the
+// technique's eyes only. `downscale` runs all passes on every nth pixel and spreads the result back
+// (renderer/techniques/reduction.h); what sends light cannot.
 
 std::span<const Technique> techniques();
 
@@ -152,7 +153,8 @@ constexpr bool takes(const Parameter& parameter, float value) {
 
 constexpr bool wellFormed(const Parameter& parameter) {
     return !parameter.name.empty() && !parameter.meaning.empty() && !parameter.source.empty() &&
-           takes(parameter, parameter.value);
+           takes(parameter, parameter.value) &&
+           (!parameter.fitted || (!isWhole(parameter) && parameter.value > 0));
 }
 
 constexpr bool wellFormed(const Preset& preset, std::span<const Parameter> parameters) {
