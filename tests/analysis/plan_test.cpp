@@ -175,7 +175,7 @@ TEST(Plan, PeopleWithEyesGoByPredictedJod) {
     const Manifest stimuli = imagesOf({{8.2, 9.2}});
     PlanOptions options;
     options.participants = 42;
-    options.studies = 4000;
+    options.studies = 1000;
     const Plan plan = planOf(study, options, {}, &stimuli);
     ASSERT_EQ(plan.predicted.size(), 1U);
     EXPECT_DOUBLE_EQ(plan.predicted[0].shareB, 0.75);
@@ -184,7 +184,7 @@ TEST(Plan, PeopleWithEyesGoByPredictedJod) {
     EXPECT_NEAR(plan.tests[0].predicted->power.share, 0.919471, 1e-6);
     EXPECT_EQ(plan.tests[0].predicted->needed, 35);
     EXPECT_EQ(plan.tests[0].predicted->ninety, 42);
-    EXPECT_NEAR(statedAt(plan, 42).supported[0].share, 0.919471, 4 * std::sqrt(.92 * .08 / 4000));
+    EXPECT_NEAR(statedAt(plan, 42).supported[0].share, 0.919471, 4 * std::sqrt(.92 * .08 / 1000));
     const std::string words = planText(plan);
     EXPECT_NE(words.find("By predicted JOD (ColorVideoVDP), not by people"), std::string::npos);
     EXPECT_EQ(words.find("simulatedPreference"), std::string::npos);
