@@ -239,14 +239,6 @@ const Subject& RecipeRenderer::subject(const Recipe& recipe) {
     return *stage_->subject;
 }
 
-void RecipeRenderer::check(const Recipe& recipe) {
-    prepare(recipe);
-    const Settings settings = settingsOf(recipe);
-    const int guard = guardPixels(settings, recipe.height);
-    const OcclusionPasses passes(settings, recipe.width + 2 * guard, recipe.height + 2 * guard);
-    gl::throwMessages();
-}
-
 Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
     const Settings settings = settingsOf(recipe);
     StageClock clock;

@@ -87,9 +87,6 @@ class RecipeRenderer {
     // The recipe's scene, to be probed (renderer/probe.h); until a recipe has another scene.
     const Subject& subject(const Recipe& recipe);
 
-    // All of it but drawing: loads scene and lighting onto the GPU, and compiles the shaders.
-    void check(const Recipe& recipe);
-
     const StageTimes& times() const { return times_; }
     const std::vector<std::string>& sceneWarnings() const { return warnings_; }
 
