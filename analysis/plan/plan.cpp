@@ -1,6 +1,5 @@
 #include "analysis/plan/plan.h"
 
-#include "analysis/plan/predicted.h"
 #include "analysis/plan/simulation.h"
 #include "analysis/verdict.h"
 #include "protocols/reader/balance.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "protocols/reader/manifest.h"
+#include "analysis/plan/predicted.h"
 #include "protocols/reader/protocol.h"
 
 #include "inference/result.h"
@@ -58,14 +58,6 @@ struct PlannedTest {
 struct StatedPower {
     int people = 0;
     std::vector<Chance> supported; // of each claim
-};
-
-// How people are expected to choose in a condition, by the predicted JOD of its images and not by
-// any answer: the mean over both orders (inference/thurstone_observer.h).
-struct PredictedPair {
-    std::string condition;
-    double jodA = 10, jodB = 10;
-    double shareB = 0.5, unsure = 0; // of all answers
 };
 
 struct Plan {
