@@ -16,7 +16,7 @@ namespace {
 
 constexpr int width = 48, height = 27, rays = 16;
 constexpr double share = 1.0 / 16;            // of the picture's height
-constexpr double start = 1.0 / 100;           // of the scene's size, to find cameras by
+constexpr double start = 1.0 / 30;           // of the scene's size, to find cameras by
 constexpr double hardly = 0.05, mostly = 0.5; // occluded, on average
 constexpr int mostSteps = 4;
 
