@@ -380,7 +380,7 @@ std::string glanceScript(const Budget& budget, const Choice& choice,
                            "the left edge)"),
                gnuplotText("RMSE"),
                gnuplotBold("All candidates at a glance: fitted on one small training view, seen on "
-                           "another")) +
+                           "all of them")) +
         numbersScript(choice, rows, frame) +
         format("set key at screen 0.865, screen {} left top samplen 0.3 font ',7.5'\n",
                layout.glanceTop) +

@@ -34,8 +34,6 @@ TEST(Radius, FollowsTheScene) {
     EXPECT_GE(sculpture.metres, 0.02);
     EXPECT_LT(sculpture.metres, hall.metres);
     EXPECT_THAT(hall.why, HasSubstr("4 cameras found in the scene see surfaces at a median depth"));
-    std::printf("%g m: %s\n%g m: %s\n", hall.metres, hall.why.c_str(), sculpture.metres,
-                sculpture.why.c_str());
 }
 
 const std::string text = R"(name = "small"
