@@ -42,6 +42,9 @@ void addStudyOptions(CLI::App& command, StudyOptions& options) {
         .add_option("--seconds", options.seconds,
                     "timed of each configuration and view, or the study's number of frames")
         ->check(numberFrom(0, 86400));
+    command.add_option("--display", options.display,
+                       "on which JOD is predicted, instead of the study's: a name, as "
+                       "standard_4k, or NUMBER, as peak=100; may be repeated");
     command.add_option("--hours", options.hours, "that references may take")
         ->check(numberFrom(0, 1e6))
         ->capture_default_str();
@@ -56,6 +59,8 @@ void adjust(SweepStudy& study, const StudyOptions& options, std::size_t quickVie
         study.sizes = sizesOf(options.sizes);
     if (options.seconds >= 0)
         study.seconds = options.seconds;
+    if (!options.display.empty())
+        study.display = displayOf(options.display);
 }
 
 SweepPlan planOf(const StudyOptions& options, const fs::path& folder) {

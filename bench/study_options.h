@@ -18,14 +18,14 @@ namespace obscura {
 struct StudyOptions {
     std::filesystem::path study, out, scenes;
     std::string device, part;
-    std::vector<std::string> sizes;
+    std::vector<std::string> sizes, display;
     double seconds = -1, hours = 1;
     bool quick = false;
 };
 
 void addStudyOptions(CLI::App& command, StudyOptions& options);
 
-// Applies --quick (with so many test views), --size and --seconds.
+// Applies --quick (with so many test views), --size, --seconds and --display.
 void adjust(SweepStudy& study, const StudyOptions& options, std::size_t quickViews);
 
 // An Error says what is wrong with --part.

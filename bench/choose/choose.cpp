@@ -41,6 +41,7 @@ ViewResult resultOf(const PictureError& matched, const PictureError& lit) {
     result.rmse = matched.rmse;
     result.flip = matched.flip;
     result.litFlip = lit.flip;
+    result.jod = lit.jod;
     return result;
 }
 

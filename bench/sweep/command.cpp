@@ -16,16 +16,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The Pareto front of each scene and size, matched RMSE against milliseconds.
+// The Pareto front of each scene and size, matched RMSE against milliseconds, and how far to trust
+// them.
 std::string frontText(const Sweep& sweep) {
     std::string text;
     const ErrorMeasure& measure = errorMeasures().front();
     for (const SweepGroup& group : groupsOf(sweep.rows)) {
         text += fmt::format("{}, {}: the front\n", titleOf(group), measure.name);
-        for (const std::size_t i : paretoFront(paretoPoints(group, measure)))
-            text += fmt::format("  {:<34} {:>9.3g} ms  {:6.3f} x starcraft 16  {:.4f}\n",
+        const auto points = paretoPoints(group, measure);
+        const auto add = [&](std::size_t i, char mark) {
+            text += fmt::format("{} {:<34} {:>9.3g} ms  {:6.3f} x starcraft 16  {:.4f}\n", mark,
                                 group.points[i].configuration, group.points[i].total.median,
                                 group.points[i].toStarcraft, measure.of(group.points[i]));
+        };
+        for (const std::size_t i : paretoFront(points))
+            add(i, ' ');
+        for (const std::size_t i : nearFront(points, uncertaintyOf(group)))
+            add(i, '~');
+        if (const std::string warning = warningOf(group.straying); !warning.empty())
+            text += fmt::format("{} Marked ~: on the front within that.\n", warning);
     }
     return text;
 }

@@ -241,6 +241,14 @@ json toJson(const ScreenNeeds& needs) {
     return result;
 }
 
+json toJson(const Display& display) {
+    const auto& [name, width, height, diagonalInches, distance, peak, contrast, ambient] = display;
+    return {{"name", name},         {"width", width},
+            {"height", height},     {"diagonalInches", diagonalInches},
+            {"distance", distance}, {"peak", peak},
+            {"contrast", contrast}, {"ambient", ambient}};
+}
+
 json toJson(const Claim& claim) {
     const auto& [name, kind, conditions, favours, margin, scores, family, place] = claim;
     return {{"name", name},
@@ -273,9 +281,9 @@ struct Parts {
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, boost, trial, before, after, keys, screen, ordering, claims,
+                 conditions, boost, trial, before, after, keys, screen, display, ordering, claims,
                  exclusions, words, translations, simulation, path, sha256] = protocol;
-    const auto& [positionBias, viewTime, decision] = simulation;
+    const auto& [positionBias, lapse, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
     Parts result;
@@ -317,6 +325,10 @@ Parts split(const Protocol& protocol) {
           {"view", toJson(viewTime)},
           {"decision", toJson(decision)}}},
         {"conditions", parts.simulated}};
+    if (lapse > 0) // studies without keep their hash
+        result.texts["simulation"]["lapse"] = lapse;
+    if (!(display == displays().front())) // it only predicts
+        result.texts["display"] = toJson(display);
     for (const Texts& translation : translations)
         result.texts["languages"][translation.language] = toJson(translation);
     split(views, parts.views, "scenes", result.stimuli, result.texts);

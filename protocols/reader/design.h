@@ -16,8 +16,9 @@ struct ProtocolParts {
     std::string stimuli;   // what the pictures and their labels depend on: scenes, levels and
                            // techniques that conditions use, the conditions, image size, seed
     std::string procedure; // what else decides what participants see and do: the order, the trial
-    std::string texts;     // the rest: words, title, planned number, the simulated observer, and
-                           // scenes, levels and techniques that no condition uses
+    std::string texts;     // the rest: words, title, planned number, the simulated observer, the
+                           // display that differences are predicted on, and scenes, levels and
+                           // techniques that no condition uses
 };
 ProtocolParts partsOf(const Protocol& protocol);
 

@@ -14,8 +14,8 @@ namespace {
 
 using nlohmann::json;
 
-// 2: recipes name the code that rendered.
-constexpr int newestVersion = 3; // 2 had pairs, 1 one contact sheet and no hash of the code
+// 3 had no display, qualities and times, 2 pairs, 1 one contact sheet and no hash of the code.
+constexpr int newestVersion = 4;
 
 // Writing ------------------------------------------------------------------------------------
 
@@ -103,7 +103,34 @@ json toJson(const ImageRecord& image) {
                    {"layers", layers}};
     if (image.derived)
         result["derived"] = toJson(*image.derived);
+    if (image.quality)
+        result["quality"] = {{"rmse", image.quality->rmse},
+                             {"jod", image.quality->jod},
+                             {"referenceSha256", image.quality->referenceSha256}};
+    if (image.milliseconds)
+        result["milliseconds"] = *image.milliseconds;
     return result;
+}
+
+// The keys of [display].
+json toJson(const Display& display) {
+    json result = {{"width", display.width},
+                   {"height", display.height},
+                   {"diagonalInches", display.diagonalInches},
+                   {"distanceCm", display.distance * 100},
+                   {"peak", display.peak},
+                   {"contrast", display.contrast},
+                   {"ambientLux", display.ambient}};
+    if (!display.name.empty())
+        result["name"] = display.name;
+    return result;
+}
+
+json toJson(const TimingRecord& timing) {
+    return {{"method", timing.method},
+            {"renderer", timing.renderer},
+            {"processor", timing.processor},
+            {"starcraft", timing.starcraft}};
 }
 
 // Reading ------------------------------------------------------------------------------------
@@ -258,6 +285,29 @@ Derivation readDerivation(const Node& node) {
     return derived;
 }
 
+Display readDisplay(const Node& node) {
+    Display display;
+    if (node.has("name"))
+        node["name"].read(display.name);
+    node["width"].read(display.width);
+    node["height"].read(display.height);
+    node["diagonalInches"].read(display.diagonalInches);
+    display.distance = node["distanceCm"].as<double>() / 100;
+    node["peak"].read(display.peak);
+    node["contrast"].read(display.contrast);
+    node["ambientLux"].read(display.ambient);
+    return display;
+}
+
+TimingRecord readTiming(const Node& node) {
+    TimingRecord timing;
+    node["method"].read(timing.method);
+    node["renderer"].read(timing.renderer);
+    node["processor"].read(timing.processor);
+    node["starcraft"].read(timing.starcraft);
+    return timing;
+}
+
 ImageRecord readImageRecord(const Node& node) {
     ImageRecord image;
     node["name"].read(image.name);
@@ -271,6 +321,11 @@ ImageRecord readImageRecord(const Node& node) {
         image.derived = readDerivation(node["derived"]);
         image.layers["rendered"] = readFileRecord(node["layers"]["rendered"]); // must be there
     }
+    if (node.has("quality"))
+        image.quality = {node["quality"]["rmse"].as<double>(), node["quality"]["jod"].as<double>(),
+                         node["quality"]["referenceSha256"].as<std::string>()};
+    if (node.has("milliseconds"))
+        image.milliseconds = node["milliseconds"].as<double>();
     return image;
 }
 
@@ -373,6 +428,10 @@ Manifest readManifest(const std::filesystem::path& path) {
             manifest.contactSheets.push_back(readFileRecord(sheet));
     else // version 1 had one
         manifest.contactSheets.push_back(readFileRecord(root["contactSheet"]));
+    if (root.has("display"))
+        manifest.display = readDisplay(root["display"]);
+    if (root.has("timing"))
+        manifest.timing = readTiming(root["timing"]);
     manifest.folder = path.parent_path();
     return manifest;
 }
@@ -393,16 +452,20 @@ void writeManifest(const std::filesystem::path& path, const Manifest& manifest) 
     json sheets = json::array();
     for (const FileRecord& sheet : manifest.contactSheets)
         sheets.push_back(toJson(sheet));
-    const json root = {{"schemaVersion", newestVersion},
-                       {"study", manifest.study},
-                       {"title", manifest.title},
-                       {"protocolSha256", manifest.protocolSha256},
-                       {"stimuliSha256", manifest.stimuliSha256},
-                       {"commit", manifest.commit},
-                       {"width", manifest.width},
-                       {"height", manifest.height},
-                       {"conditions", conditions},
-                       {"contactSheets", sheets}};
+    json root = {{"schemaVersion", newestVersion},
+                 {"study", manifest.study},
+                 {"title", manifest.title},
+                 {"protocolSha256", manifest.protocolSha256},
+                 {"stimuliSha256", manifest.stimuliSha256},
+                 {"commit", manifest.commit},
+                 {"width", manifest.width},
+                 {"height", manifest.height},
+                 {"conditions", conditions},
+                 {"contactSheets", sheets}};
+    if (manifest.display)
+        root["display"] = toJson(*manifest.display);
+    if (manifest.timing)
+        root["timing"] = toJson(*manifest.timing);
     writeFile(path, root.dump(2) + "\n");
 }
 

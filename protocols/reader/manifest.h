@@ -1,5 +1,6 @@
 #pragma once
 
+#include "protocols/reader/display.h"
 #include "protocols/reader/protocol.h"
 
 #include <array>
@@ -50,6 +51,16 @@ struct Derivation {
     bool operator==(const Derivation&) const = default;
 };
 
+// How far an image is from the reference of its view: the ray-traced image of the same scene, level
+// and recipe otherwise. Of what was rendered, before any boost.
+struct ImageQuality {
+    double rmse = 0;             // of visibility, linear, over pixels that show a surface
+    double jod = 10;             // predicted, of the lit image, on Manifest::display
+    std::string referenceSha256; // of the reference's recipe
+
+    bool operator==(const ImageQuality&) const = default;
+};
+
 struct ImageRecord {
     std::string role; // in its condition: "a", "b", "reference"
     std::string name; // of the technique setting: "blizzard24"
@@ -60,6 +71,11 @@ struct ImageRecord {
     FileRecord image;         // 8-bit sRGB PNG
     std::map<std::string, FileRecord> layers; // "ao" always; "linear", "albedo", ... on request
     std::optional<Derivation> derived;        // then the layer "rendered" is what the recipe gives
+    std::optional<ImageQuality> quality;      // nothing before version 4
+    // Median time of the technique's passes for one frame of the image's size, not antialiased, on
+    // the machine of Manifest::timing; nothing before version 4, and for techniques that no real
+    // time is meant for (ray_traced).
+    std::optional<double> milliseconds;
 };
 
 struct ConditionRecord {
@@ -76,6 +92,17 @@ struct ConditionRecord {
     bool isPair() const { return find("a") && find("b"); }
 };
 
+// How and on what the images' times were measured.
+struct TimingRecord {
+    std::string method;    // a sentence
+    std::string renderer;  // of OpenGL
+    std::string processor; // of the machine
+    // Milliseconds of the anchor in the same rounds, `starcraft` with 16 samples, by view.
+    std::map<std::string, double> starcraft;
+
+    bool operator==(const TimingRecord&) const = default;
+};
+
 // What obscura-stimuli wrote, and all that the presenter and the report need to know of it.
 struct Manifest {
     std::string study, title;
@@ -86,8 +113,10 @@ struct Manifest {
     int width = 0, height = 0;
     std::vector<ConditionRecord> conditions;
     std::vector<FileRecord> contactSheets; // pages in order
+    std::optional<Display> display;        // on which differences were predicted
+    std::optional<TimingRecord> timing;
 
-    int schemaVersion = 3;        // of the file that was read
+    int schemaVersion = 4;        // of the file that was read
     std::filesystem::path folder; // where it was read from; paths are relative to it
 };
 

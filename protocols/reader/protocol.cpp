@@ -307,6 +307,7 @@ ExGaussian parseTime(std::optional<TomlTable> table, ExGaussian fallback) {
 Simulation parseSimulation(TomlTable table) {
     Simulation simulation;
     simulation.positionBias = table.number("positionBias", -0.5, 0.5, simulation.positionBias);
+    simulation.lapse = table.number("lapse", 0, 1, simulation.lapse);
     simulation.view = parseTime(table.table("view"), simulation.view);
     simulation.decision = parseTime(table.table("decision"), simulation.decision);
     table.finish();
@@ -350,6 +351,10 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
         protocol.exclusions = parseExclusions(std::move(*exclusions), protocol);
     if (auto screen = root.table("screen"))
         protocol.screen = parseScreenNeeds(std::move(*screen));
+    const toml::table nothing;
+    protocol.display =
+        parseDisplay(root.table("display").value_or(TomlTable(nothing, "", "display")),
+                     protocol.screen.distanceCm);
     if (auto keys = root.table("keys"))
         protocol.keys = parseKeys(std::move(*keys));
     protocol.before = parsePages(root, "before");

@@ -2,6 +2,7 @@
 
 #include "protocols/reader/boost.h"
 #include "protocols/reader/claims.h"
+#include "protocols/reader/display.h"
 #include "protocols/reader/keys.h"
 #include "protocols/reader/ordering.h"
 #include "protocols/reader/screen.h"
@@ -55,6 +56,7 @@ struct ExGaussian {
 };
 struct Simulation {
     double positionBias = 0; // added to the probability of choosing the second image, -0.5 ... 0.5
+    double lapse = 0; // of who goes by predicted JOD: share of trials answered at random, 0 ... 1
     ExGaussian view{3.0, 0.8, 2.0};
     ExGaussian decision{0.9, 0.2, 0.5};
 };
@@ -75,6 +77,7 @@ struct Protocol {
     std::vector<Phase> before, after; // pages around the trials, each shown once
     Keys keys;
     ScreenNeeds screen;
+    Display display; // on which differences between images are predicted
     Ordering ordering;
     std::vector<Claim> claims;
     ExclusionRules exclusions;

@@ -1,5 +1,4 @@
 #include "metrics/image_error.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -25,6 +25,9 @@ training = { width = 32, height = 18 }
 environment = "sky.hdr"
 sun = { azimuthDegrees = 60, elevationDegrees = 33.3 }
 occludeDirect = true
+[display]
+peak = 120
+distanceCm = 65
 [scenes.front]
 builtin = "sculpture"
 camera = { position = [0.1, 0.9, 1.7e-3], target = [0, 0.57, 0], fovDegrees = 38, near = 1e-3 }
@@ -64,6 +67,7 @@ void expectAlike(const SweepStudy& a, const SweepStudy& b) {
         EXPECT_EQ(one.camera.fovDegrees, other.camera.fovDegrees);
     }
     EXPECT_EQ(a.match.train.front().camera.near, b.match.train.front().camera.near);
+    EXPECT_EQ(a.display, b.display);
     EXPECT_EQ(a.light->sun->elevationDegrees, b.light->sun->elevationDegrees);
     EXPECT_EQ(a.light->occludeDirect, b.light->occludeDirect);
     EXPECT_EQ(a.light->curve, b.light->curve);

@@ -22,7 +22,8 @@ TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
             row.configuration = row.technique = "it's {x}_y ^ <z> & \"w\"";
     }
     const std::vector<Figure> figures = sweepFigures(sweep);
-    ASSERT_EQ(figures.size(), 2u); // scatter, growth
+    ASSERT_EQ(figures.size(), 3u); // two errors, growth
+    EXPECT_THAT(figures[1].name, StartsWith("predicted-jod-1-"));
     writeFigures(folder.path(), figures);
     for (const Figure& figure : figures) {
         const std::string svg = readFile(folder / (figure.name + ".svg"));
@@ -40,7 +41,7 @@ TEST(Figures, AreNotDrawnOfNothing) {
     sweep.growth.clear();
     for (SweepRow& row : sweep.rows) {
         row.technique = "hbao";
-        row.matched.rmse = std::nan("");
+        row.matched.rmse = row.litMatched.jod = std::nan("");
     }
     EXPECT_THAT(sweepFigures(sweep), IsEmpty());
 }

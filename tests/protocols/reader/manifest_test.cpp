@@ -40,10 +40,14 @@ Manifest sample() {
     pair.image("b").recipe.level.ambient = Vec3{1, 1, 1};
     pair.image("b").recipe.settings = {{"radius", 0.2}, {"samples", 24}};
     pair.image("b").meanOcclusion = 0.125;
+    pair.image("b").quality = {0.1 / 3, 9.25, std::string(64, '5')};
+    pair.image("b").milliseconds = 1.0 / 3;
     pair.image("b").layers["ao"] = {"b_ao.png", std::string(64, '2')};
     manifest.conditions.push_back(pair);
     manifest.contactSheets = {{"sheet-1.png", std::string(64, '3')},
                               {"sheet-2.png", std::string(64, '4')}};
+    manifest.display = displays()[1];
+    manifest.timing = {"by a clock", "llvmpipe", "a processor", {{"box", 2.0 / 3}}};
     return manifest;
 }
 
@@ -58,6 +62,46 @@ TEST(ManifestTest, WhatIsWrittenIsRead) {
     EXPECT_EQ(manifest.title, "A “small” study");
     EXPECT_EQ(manifest.conditions.at(0).image("a").recipe.view.camera.position[1], 1.0 / 3);
     EXPECT_EQ(manifest.conditions.at(0).image("b").layers.at("ao").path, "b_ao.png");
+    EXPECT_EQ(manifest.conditions.at(0).image("b").quality,
+              sample().conditions.at(0).image("b").quality);
+    EXPECT_EQ(manifest.conditions.at(0).image("b").milliseconds, 1.0 / 3);
+    EXPECT_EQ(manifest.timing, sample().timing);
+}
+
+// Not only displays of a name, but any distance that [display] can give, to the last bit: what was
+// predicted on another display is predicted again.
+TEST(ManifestTest, KeepsItsDisplay) {
+    std::vector<Display> all = displays();
+    for (int millimetres = 300; millimetres < 1000; ++millimetres) {
+        Display other = all.front();
+        other.name.clear();
+        other.distance = (millimetres / 10.0) / 100;
+        all.push_back(other);
+    }
+    for (const Display& display : all) {
+        Manifest manifest = sample();
+        manifest.display = display;
+        writeManifest(file(), manifest);
+        EXPECT_EQ(readManifest(file()).display, display) << inWords(display);
+    }
+}
+
+// Version 3 predicted and measured nothing.
+TEST(ManifestTest, WhatVersion3LacksIsAbsent) {
+    writeManifest(file(), sample());
+    nlohmann::json json = nlohmann::json::parse(readFile(file()));
+    json["schemaVersion"] = 3;
+    json.erase("display");
+    json.erase("timing");
+    for (const char* key : {"quality", "milliseconds"})
+        json["conditions"][0]["images"]["b"].erase(key);
+    writeFile(file(), json.dump());
+    const Manifest manifest = readManifest(file());
+    EXPECT_EQ(manifest.schemaVersion, 3);
+    EXPECT_FALSE(manifest.display);
+    EXPECT_FALSE(manifest.timing);
+    EXPECT_FALSE(manifest.conditions[0].image("b").quality);
+    EXPECT_FALSE(manifest.conditions[0].image("b").milliseconds);
 }
 
 // Whatever decides pixels must decide the hash, or a stale image would be kept.
@@ -186,7 +230,7 @@ TEST(ManifestTest, AnotherVersionIsRefused) {
         readManifest(file());
         FAIL();
     } catch (const Error& error) {
-        EXPECT_THAT(error.what(), testing::HasSubstr("schemaVersion: expected 1 ... 3, found 99"));
+        EXPECT_THAT(error.what(), testing::HasSubstr("schemaVersion: expected 1 ... 4, found 99"));
     }
 }
 

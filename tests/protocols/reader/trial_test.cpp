@@ -245,6 +245,26 @@ TEST(Screen, ThatCannotBeIsRefused) {
                 HasSubstr("pixelsPerDegree.max"));
 }
 
+// What is predicted on it decides neither pictures nor procedure: studies that have begun go on.
+TEST(Display, IsNoPartOfTheDesign) {
+    const Protocol without = parsed("");
+    EXPECT_EQ(without.display, displays().front());
+    const Protocol protocol = parsed("[display]\nname = \"laptop\"\npeak = 150\n");
+    EXPECT_EQ(protocol.display.peak, 150);
+    EXPECT_EQ(protocol.display.width, 1280);
+    EXPECT_EQ(designOf(protocol), designOf(without));
+    EXPECT_NE(partsOf(protocol).texts, partsOf(without).texts);
+    EXPECT_EQ(partsOf(without).texts.find("\"display\""), std::string::npos);
+    EXPECT_THAT(errorOf("[display]\nname = \"laptob\"\n"), HasSubstr("display.name"));
+    EXPECT_THAT(errorOf("[display]\nlux = 3\n"), HasSubstr("display.lux"));
+}
+
+TEST(Display, StandsWhereTheScreenIsSeenFrom) {
+    const std::string screen = "[screen]\ndistanceCm = 75\n";
+    EXPECT_EQ(parsed(screen).display.distance, 0.75);
+    EXPECT_EQ(parsed(screen + "[display]\ndistanceCm = 50\n").display.distance, 0.5);
+}
+
 TEST(Roles, MayBeAnyNumberAndAreSortedByName) {
     const Protocol protocol =
         parsed("[trial]\norder = [\"c\"]\n[[trial.phases]]\nname = \"look\"\nimage = 1\n"
