@@ -4,6 +4,7 @@
 #include "base/version.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/frame/composite.h"
+#include "renderer/probe.h"
 #include "renderer/reference/traced.h"
 #include "renderer/techniques/occlusion_passes.h"
 
@@ -26,13 +27,6 @@ auto namedAt(const Place& place, Read read) {
     } catch (const std::exception& error) {
         throw Error(place, error.what());
     }
-}
-
-Settings settingsOf(const Recipe& recipe) {
-    Settings settings(technique(recipe.technique));
-    for (const auto& [name, value] : recipe.settings)
-        settings.set(name, value);
-    return settings;
 }
 
 // Sub-pixel offsets of `count` frames: the R2 sequence (Roberts 2018) fills the pixel evenly for
@@ -108,6 +102,13 @@ const std::string& SceneHashes::of(const View& view) {
     return hash;
 }
 
+Settings settingsOf(const Recipe& recipe) {
+    Settings settings(technique(recipe.technique));
+    for (const auto& [name, value] : recipe.settings)
+        settings.set(name, value);
+    return settings;
+}
+
 std::string shaderSha256(const Settings& settings, const Level& level) {
     Sha256 hash;
     for (const char* name : {"depth_only.vert", "gbuffer.vert", "gbuffer.frag", "screen.vert"})
@@ -162,12 +163,29 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
 // What stays from one recipe to the next.
 struct RecipeRenderer::Stage {
     std::string sceneSha256, lighting; // what is loaded; the latter as text
-    std::optional<GpuScene> scene;
-    std::optional<SceneSpheres> spheres;
-    std::optional<RayTracer> tracer; // once a technique has traced rays
+    std::optional<Subject> subject;
+    std::optional<RayTracer> tracer;
+    std::map<std::string, Image> traced; // visibility of each frame, by all that decides it
     std::optional<Lighting> light;
-    GBufferPass gbufferPass;
+
+    const Image& tracedIn(const Frame& frame, int index, const Recipe& recipe,
+                          const Settings& settings);
 };
+
+// The seed is each frame's own, so that frames average the rays' noise too.
+const Image& RecipeRenderer::Stage::tracedIn(const Frame& frame, int index, const Recipe& recipe,
+                                             const Settings& settings) {
+    Recipe unlit = recipe;
+    unlit.level = {};
+    unlit.environmentSha256.clear();
+    unlit.shaderSha256.clear();
+    Image& known = traced[fmt::format("{} {}", index, unlit.json())];
+    if (known.pixels.empty())
+        known = tracedVisibility(
+            *tracer, surfacesOf(subject->scene(), subject->pass(), frame, recipe.normals), settings,
+            recipe.seed + static_cast<std::uint64_t>(index) * 0x9e3779b97f4a7c15u);
+    return known;
+}
 
 RecipeRenderer::RecipeRenderer(Folders folders)
     : folders_(std::move(folders)), stage_(std::make_unique<Stage>()) {}
@@ -186,27 +204,18 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
                             "recipe was made; generate the stimuli again",
                             what, expected, found));
     };
-    std::optional<Scene> scene; // only the GPU keeps it
-    const auto load = [&] {
-        scene = loadSceneOf(recipe.view, folders_);
-        mustBe(fmt::format("scene \"{}\"", recipe.view.name), scene->sha256, recipe.sceneSha256);
-    };
     if (stage_->sceneSha256 != recipe.sceneSha256) {
         stage_->light.reset();
-        stage_->spheres.reset();
         stage_->tracer.reset();
-        stage_->scene.reset();
-        load();
-        warnings_ = scene->warnings;
-        namedAt(recipe.view.place, [&] { stage_->scene.emplace(*scene); });
-        stage_->spheres.emplace(*scene);
+        stage_->traced.clear();
+        stage_->subject.reset();
+        const Scene scene = loadSceneOf(recipe.view, folders_); // the GPU and Embree keep theirs
+        mustBe(fmt::format("scene \"{}\"", recipe.view.name), scene.sha256, recipe.sceneSha256);
+        warnings_ = scene.warnings;
+        namedAt(recipe.view.place, [&] { stage_->subject.emplace(scene); });
+        stage_->tracer.emplace(scene);
         stage_->sceneSha256 = recipe.sceneSha256;
         stage_->lighting.clear();
-    }
-    if ((technique(recipe.technique).reads & rays) && !stage_->tracer) {
-        if (!scene)
-            load();
-        stage_->tracer.emplace(*scene);
     }
     // The recipe's JSON is a canonical text of everything lighting depends on, and of more.
     Recipe lightingOnly;
@@ -218,10 +227,16 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
                    recipe.environmentSha256);
         stage_->light.reset();
         namedAt(recipe.level.place, [&] {
-            stage_->light.emplace(recipe.level, *stage_->scene, environmentOf(recipe.level));
+            stage_->light.emplace(recipe.level, stage_->subject->scene(),
+                                  environmentOf(recipe.level));
         });
         stage_->lighting = key;
     }
+}
+
+const Subject& RecipeRenderer::subject(const Recipe& recipe) {
+    prepare(recipe);
+    return *stage_->subject;
 }
 
 void RecipeRenderer::check(const Recipe& recipe) {
@@ -237,6 +252,8 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
     StageClock clock;
     prepare(recipe);
     const Lighting& lighting = *stage_->light;
+    const GpuScene& scene = stage_->subject->scene();
+    const GBufferPass& gbufferPass = stage_->subject->pass();
     const int guard = guardPixels(settings, recipe.height);
     GBufferContent content;
     content.shadingNormal = lighting.readsNormals();
@@ -258,11 +275,11 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
     float empty = 0;
     for (int i = 0; i < recipe.antialiasing; ++i) {
         const Frame frame =
-            makeFrame(recipe.view.camera, recipe.width, recipe.height, stage_->scene->bounds(),
-                      recipe.seed, jitterOf(i, recipe.antialiasing));
+            makeFrame(recipe.view.camera, recipe.width, recipe.height, scene.bounds(), recipe.seed,
+                      jitterOf(i, recipe.antialiasing));
         const gl::UniformBuffer block = frameBuffer(frame);
         bindFrame(block);
-        stage_->gbufferPass.draw(*stage_->scene, frame, gbuffer);
+        gbufferPass.draw(scene, frame, gbuffer);
         clock.mark(times_.gbuffer);
         lighting.draw(gbuffer, light);
         clock.mark(times_.light);
@@ -281,20 +298,15 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
         Frame seen = frame;                         // by the technique
         std::optional<gl::UniformBuffer> wideBlock; // occlusion reads it too
         if (padded) {
-            seen =
-                makeFrame(recipe.view.camera, recipe.width, recipe.height, stage_->scene->bounds(),
-                          recipe.seed, jitterOf(i, recipe.antialiasing), guard);
+            seen = makeFrame(recipe.view.camera, recipe.width, recipe.height, scene.bounds(),
+                             recipe.seed, jitterOf(i, recipe.antialiasing), guard);
             wideBlock.emplace(frameBuffer(seen));
             bindFrame(*wideBlock);
-            stage_->gbufferPass.draw(*stage_->scene, seen, *padded);
+            gbufferPass.draw(scene, seen, *padded);
         }
-        // The seed is each frame's own, so that frames average the rays' noise too.
         std::optional<gl::Texture> traced;
         if (settings.technique().reads & rays)
-            traced = visibilityTexture(tracedVisibility(
-                *stage_->tracer,
-                surfacesOf(*stage_->scene, stage_->gbufferPass, frame, recipe.normals), settings,
-                recipe.seed + static_cast<std::uint64_t>(i) * 0x9e3779b97f4a7c15u));
+            traced = visibilityTexture(stage_->tracedIn(frame, i, recipe, settings));
         bindFrame(wideBlock ? *wideBlock : block);
         const gl::Texture& visibility =
             traced ? *traced
@@ -302,7 +314,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                            [&]() -> OcclusionInputs::Light {
                                                return {light, lighting};
                                            },
-                                           std::cref(*stage_->spheres)});
+                                           std::cref(stage_->subject->spheres())});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard);
         clock.mark(times_.composite);

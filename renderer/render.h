@@ -14,6 +14,8 @@
 
 namespace obscura {
 
+class Subject;
+
 // Hash of our own C++ that decides the pixels of an image (code_hash.cmake), because images made by
 // other code may look different. Shaders and built-in scenes are no part of it: those have hashes
 // of their own (shaderSha256(), contentSha256()), so that a changed one is rendered anew alone.
@@ -48,6 +50,9 @@ Recipe makeRecipe(const Protocol& protocol, const Condition& condition, int memb
                   SceneHashes& scenes, const gl::Driver& driver,
                   std::string_view code = imageCode());
 
+// The technique of a recipe with its settings.
+Settings settingsOf(const Recipe& recipe);
+
 // Hash of the text of every shader that makes an image with these settings.
 std::string shaderSha256(const Settings& settings, const Level& level);
 
@@ -68,8 +73,9 @@ struct StageTimes {
     double scene = 0, gbuffer = 0, light = 0, occlusion = 0, composite = 0, hash = 0;
 };
 
-// Carries out recipes one at a time in the current context. Keeps the last scene and lighting, so
-// that recipes sorted by scene and level load each once.
+// Carries out recipes one at a time in the current context. Keeps the last scene, its rays and
+// lighting, so that recipes sorted by scene and level load each once, and rays are traced once for
+// all levels.
 class RecipeRenderer {
   public:
     explicit RecipeRenderer(Folders folders);
@@ -77,6 +83,9 @@ class RecipeRenderer {
 
     // Scene and environment must have the recipe's hashes; an Error says which has changed.
     Rendering render(const Recipe& recipe, bool layers = false);
+
+    // The recipe's scene, to be probed (renderer/probe.h); until a recipe has another scene.
+    const Subject& subject(const Recipe& recipe);
 
     // All of it but drawing: loads scene and lighting onto the GPU, and compiles the shaders.
     void check(const Recipe& recipe);

@@ -6,7 +6,9 @@
 #include "protocols/reader/design.h"
 #include "stimuli/boost.h"
 #include "stimuli/contact_sheet.h"
+#include "stimuli/measurements.h"
 #include "stimuli/plan.h"
+#include "stimuli/times.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -32,11 +34,32 @@ double seconds() {
         .count();
 }
 
-// The records of earlier runs by the image's file. A manifest that cannot be read proves nothing,
-// which only costs time.
-std::map<std::string, ImageRecord> earlierRecords(const fs::path& folder,
-                                                  std::vector<std::string>& warnings) {
-    std::map<std::string, ImageRecord> records;
+// What earlier runs left.
+struct Earlier {
+    std::map<std::string, ImageRecord> images; // by the file
+    TimingRecord timing;                       // of their times
+};
+
+bool timedAlike(const Manifest& earlier, const Manifest& now) {
+    return earlier.timing && earlier.timing->renderer == now.timing->renderer &&
+           earlier.timing->processor == now.timing->processor;
+}
+
+// Of an image of an earlier run, what it is; and what was measured of it, where that was measured
+// as it would be now.
+ImageRecord recordOf(const ImageRecord& image, const Manifest& earlier, const Manifest& now) {
+    ImageRecord record = unboosted(image);
+    if (earlier.display != now.display)
+        record.quality.reset();
+    if (!timedAlike(earlier, now))
+        record.milliseconds.reset();
+    return record;
+}
+
+// A manifest that cannot be read proves nothing, which only costs time.
+Earlier earlierRuns(const fs::path& folder, const Manifest& now,
+                    std::vector<std::string>& warnings) {
+    Earlier earlier{{}, *now.timing};
     for (const char* name : {manifestName, unfinishedName})
         if (fs::exists(folder / name))
             try {
@@ -48,10 +71,12 @@ std::map<std::string, ImageRecord> earlierRecords(const fs::path& folder,
                         (folder / name).string(), manifest.schemaVersion));
                 for (const ConditionRecord& condition : manifest.conditions)
                     for (const ImageRecord& image : condition.images)
-                        records[renderedOf(image).path] = unboosted(image);
+                        earlier.images[renderedOf(image).path] = recordOf(image, manifest, now);
+                if (timedAlike(manifest, now))
+                    earlier.timing = *manifest.timing;
             } catch (const Error&) {
             }
-    return records;
+    return earlier;
 }
 
 bool intact(const fs::path& folder, const FileRecord& file) {
@@ -142,7 +167,7 @@ void checkMatched(const ConditionRecord& condition, const Place& place) {
     }
 }
 
-Manifest emptyManifest(const Protocol& protocol) {
+Manifest emptyManifest(const Protocol& protocol, const gl::Driver& driver) {
     Manifest manifest;
     manifest.study = protocol.name;
     manifest.title = protocol.title;
@@ -151,6 +176,8 @@ Manifest emptyManifest(const Protocol& protocol) {
     manifest.commit = std::string(commit());
     manifest.width = protocol.width;
     manifest.height = protocol.height;
+    manifest.display = protocol.display;
+    manifest.timing = TimingRecord{"", driver.renderer, processorName(), {}};
     return manifest;
 }
 
@@ -173,6 +200,13 @@ void addWarnings(std::vector<std::string>& all, const std::string& scene,
         if (const std::string full = fmt::format("scene \"{}\": {}", scene, warning);
             std::find(all.begin(), all.end(), full) == all.end())
             all.push_back(full);
+}
+
+std::map<std::string, std::vector<Recipe>> byView(const std::vector<Recipe>& recipes) {
+    std::map<std::string, std::vector<Recipe>> result;
+    for (const Recipe& recipe : recipes)
+        result[recipe.view.name].push_back(recipe);
+    return result;
 }
 
 bool isFinished(const ConditionRecord& condition) {
@@ -355,13 +389,15 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
                                      scenes, driver, code));
     removeUnfinishedFiles(folder);
     GenerateResult result;
-    const auto earlier = earlierRecords(folder, result.warnings);
-    result.manifest = emptyManifest(protocol);
+    result.manifest = emptyManifest(protocol, driver);
     result.manifest.folder = folder;
     for (const Condition& condition : protocol.conditions)
         result.manifest.conditions.push_back(emptyPair(protocol, condition));
+    const Earlier earlier = earlierRuns(folder, result.manifest, result.warnings);
+    result.manifest.timing = earlier.timing;
 
     RecipeRenderer renderer(folders);
+    Measurements measurements(protocol, folder, byView(recipes), renderer);
     for (std::size_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
         announce(static_cast<int>(i), static_cast<int>(images.size()), image.file);
@@ -369,13 +405,13 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
         ConditionRecord& pair = result.manifest.conditions[image.condition];
         const Role& role = condition.roles[static_cast<std::size_t>(image.member)];
         ImageRecord& record = pair.image(role.name);
-        const auto known = earlier.find(image.file);
-        if (known != earlier.end() && proves(known->second, recipes[i], folder, layers)) {
+        const auto known = earlier.images.find(image.file);
+        if (known != earlier.images.end() && proves(known->second, recipes[i], folder, layers)) {
             record = known->second;
             ++result.kept;
         } else {
-            const bool exrs =
-                layers || (known != earlier.end() && known->second.layers.contains("linear"));
+            const bool exrs = layers || (known != earlier.images.end() &&
+                                         known->second.layers.contains("linear"));
             const Rendering rendering = renderer.render(recipes[i], exrs);
             addWarnings(result.warnings, condition.view, renderer.sceneWarnings());
             const double start = seconds();
@@ -388,10 +424,12 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
         record.recipe = recipes[i];
         if (isFinished(pair)) {
             checkMatched(pair, condition.place);
+            measurements.complete(result.manifest, pair);
             writeManifest(folder / unfinishedName, finishedPart(result.manifest));
         }
     }
     result.times = renderer.times();
+    result.measuring = measurements.seconds();
 
     const double start = seconds();
     if (protocol.boost)

@@ -17,7 +17,8 @@ struct GenerateResult {
     // What the scenes that were loaded use and we do not show; and what an earlier run's manifest
     // lacks, for which its images are made anew.
     std::vector<std::string> warnings;
-    double writing = 0; // seconds: encoding and flushing files, and the contact sheet
+    double writing = 0;   // seconds: encoding and flushing files, and the contact sheet
+    double measuring = 0; // seconds: references, errors, predictions and times
 };
 
 // Called before each image with how many are done, of how many, and its file name.

@@ -33,15 +33,18 @@ void report(const GenerateResult& result, const fs::path& folder) {
     if (result.rendered > 0)
         fmt::print(
             "seconds: scenes and shadow maps {:.1f}, G-buffer {:.1f}, light {:.1f}, occlusion "
-            "{:.1f}, composite {:.1f}, proof of matching {:.1f}, writing {:.1f}; peak memory "
-            "{:.0f} MiB\n",
+            "{:.1f}, composite {:.1f}, proof of matching {:.1f}, writing {:.1f}; of these and "
+            "others "
+            "{:.1f} for quality and times; peak memory {:.0f} MiB\n",
             t.scene, t.gbuffer, t.light, t.occlusion, t.composite, t.hash, result.writing,
-            peakMemory());
+            result.measuring, peakMemory());
     for (const ConditionRecord& condition : result.manifest.conditions) {
-        std::string line = fmt::format("  {:<24} mean occlusion", condition.condition);
+        fmt::print("  {:<24} matched {:.12}\n", condition.condition,
+                   condition.images.front().inputsSha256);
         for (const ImageRecord& image : condition.images)
-            line += fmt::format(" {:<16} {:.4f}  ", image.name, image.meanOcclusion);
-        fmt::print("{} matched {:.12}\n", line, condition.images.front().inputsSha256);
+            fmt::print("    {:<20} mean occlusion {:.4f}  RMSE {:.4f}  predicted JOD {:6.3f}  {}\n",
+                       image.name, image.meanOcclusion, image.quality->rmse, image.quality->jod,
+                       image.milliseconds ? fmt::format("{:.2f} ms", *image.milliseconds) : "");
     }
 }
 

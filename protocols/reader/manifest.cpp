@@ -300,8 +300,12 @@ Display readDisplay(const Node& node) {
 }
 
 TimingRecord readTiming(const Node& node) {
-    return {node["method"].as<std::string>(), node["renderer"].as<std::string>(),
-            node["processor"].as<std::string>(), node["starcraft"].as<double>()};
+    TimingRecord timing;
+    node["method"].read(timing.method);
+    node["renderer"].read(timing.renderer);
+    node["processor"].read(timing.processor);
+    node["starcraft"].read(timing.starcraft);
+    return timing;
 }
 
 ImageRecord readImageRecord(const Node& node) {

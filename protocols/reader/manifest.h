@@ -97,7 +97,8 @@ struct TimingRecord {
     std::string method;    // a sentence
     std::string renderer;  // of OpenGL
     std::string processor; // of the machine
-    double starcraft = 0;  // milliseconds of the anchor in the same rounds: `starcraft`, 16 samples
+    // Milliseconds of the anchor in the same rounds, `starcraft` with 16 samples, by view.
+    std::map<std::string, double> starcraft;
 
     bool operator==(const TimingRecord&) const = default;
 };

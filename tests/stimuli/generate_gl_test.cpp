@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -106,6 +107,12 @@ class Generate : public testing::Test {
     void checked(const std::string& text) {
         check(parseProtocol(text, "tiny.toml"), folders(), context_->driver(), quiet);
     }
+    // A floor before a wall in place of the triangle, so that rays meet something.
+    void makeCorner() const {
+        const std::vector<float> corner{-9, 0, 0, 9, 0, 0, 0, 0.6f, 0, -9, 0, 0, 0, 0, 9, 9, 0, 0};
+        writeFile(root_ / "scenes" / "t.bin", trianglesBuffer(corner));
+        writeFile(root_ / "scenes" / "t.gltf", trianglesGltf(corner));
+    }
     Folders folders() const { return {root_ / "scenes", root_}; }
 
     inline static const Announce quiet = [](int, int, const std::string&) {};
@@ -136,9 +143,16 @@ TEST_F(Generate, WritesMatchedPairs) {
     EXPECT_FALSE(fs::exists(root_ / "out" / "unfinished-manifest.json"));
 }
 
+// But for how long techniques took.
 TEST_F(Generate, TwoRunsGiveIdenticalBytes) {
-    run(protocolText(), "one", true);
-    run(protocolText(), "two", true);
+    for (const char* folder : {"one", "two"}) {
+        Manifest manifest = run(protocolText(), folder, true).manifest;
+        manifest.timing.reset();
+        for (ConditionRecord& condition : manifest.conditions)
+            for (ImageRecord& image : condition.images)
+                image.milliseconds.reset();
+        writeManifest(root_ / folder / "manifest.json", manifest);
+    }
     EXPECT_EQ(contentsOf(root_ / "one"), contentsOf(root_ / "two"));
 }
 
@@ -149,6 +163,108 @@ TEST_F(Generate, KeepsWhatTheManifestProves) {
     EXPECT_EQ(again.rendered, 0);
     EXPECT_EQ(again.kept, 4);
     EXPECT_EQ(contentsOf(root_ / "out"), before);
+}
+
+// As protocolText(), with the reference as a third image of the first condition and the second of
+// the other.
+std::string tracedText() {
+    std::string text = protocolText();
+    text.replace(text.find("[techniques.few]"), 0,
+                 "[techniques.exact]\ntechnique = \"ray_traced\"\nrays = 256\n");
+    text.replace(text.find("pair = [\"crytek\", \"few\"]"), 24,
+                 "roles = { a = \"crytek\", b = \"few\", c = \"exact\" }");
+    text.replace(text.find("pair = [\"none\", \"few\"]"), 22, "pair = [\"none\", \"exact\"]");
+    return text;
+}
+
+// Only surfaces differ from an open view, so that the error of `none` follows from the reference's
+// picture of visibility, and the number of surfaces from its mean.
+TEST_F(Generate, MeasuresHowFarImagesAreFromTheReference) {
+    makeCorner();
+    const Manifest manifest = run(tracedText()).manifest;
+    EXPECT_EQ(manifest.display, displays().front());
+    const ConditionRecord &first = manifest.conditions[0], &second = manifest.conditions[1];
+    for (const ImageRecord* exact : {&first.image("c"), &second.image("b")}) {
+        EXPECT_EQ(exact->quality->rmse, 0);
+        EXPECT_EQ(exact->quality->jod, 10);
+        EXPECT_EQ(exact->quality->referenceSha256, exact->recipe.sha256());
+    }
+    const ImageRecord& exact = second.image("b");
+    double sum = 0, squares = 0;
+    for (const std::uint8_t code :
+         readImage8(manifest.folder / exact.layers.at("ao").path, 1).pixels) {
+        sum += 1 - code / 255.0;
+        squares += std::pow(1 - code / 255.0, 2);
+    }
+    const double surfaces = sum / exact.meanOcclusion;
+    EXPECT_NEAR(second.image("a").quality->rmse, std::sqrt(squares / surfaces), 0.002);
+    EXPECT_LT(second.image("a").quality->jod, 9.9);
+    EXPECT_GT(first.image("a").quality->rmse, first.image("b").quality->rmse); // Crytek on a plane
+}
+
+TEST_F(Generate, TimesTechniquesOfAViewTogether) {
+    const Manifest manifest = run(tracedText()).manifest;
+    const ConditionRecord &first = manifest.conditions[0], &second = manifest.conditions[1];
+    EXPECT_GT(first.image("a").milliseconds, 0);
+    EXPECT_GT(first.image("b").milliseconds, 0);
+    EXPECT_EQ(second.image("a").milliseconds, 0);
+    EXPECT_FALSE(second.image("b").milliseconds); // no passes, and of no interest
+    EXPECT_GT(manifest.timing->starcraft.at("triangle"), 0);
+    EXPECT_EQ(manifest.timing->renderer, context_->driver().renderer);
+    EXPECT_NE(manifest.timing->method, "");
+    // An image that is new is no reason to compare times of two days.
+    std::string text = protocolText();
+    const Manifest before = run(text).manifest;
+    text.replace(text.find("[1, 1, 1]"), 9, "[1, 1, 0]"); // of the level that comes last
+    const Manifest again = run(text).manifest;
+    EXPECT_EQ(again.conditions[0].image("b").milliseconds,
+              again.conditions[1].image("b").milliseconds);
+    EXPECT_NE(again.conditions[1].image("b").milliseconds,
+              before.conditions[1].image("b").milliseconds);
+}
+
+// A folder of before there were qualities, or predicted for another display.
+TEST_F(Generate, MeasuresImagesThatAreKept) {
+    const Manifest made = run().manifest;
+    Manifest before = made;
+    before.display.reset();
+    before.timing.reset();
+    for (ConditionRecord& condition : before.conditions)
+        for (ImageRecord& image : condition.images) {
+            image.quality.reset();
+            image.milliseconds.reset();
+        }
+    writeManifest(root_ / "out" / "manifest.json", before);
+    const GenerateResult again = run();
+    EXPECT_EQ(again.kept, 4);
+    EXPECT_EQ(again.manifest.conditions[0].image("b").quality,
+              made.conditions[0].image("b").quality);
+    EXPECT_GT(again.manifest.conditions[0].image("b").milliseconds, 0);
+
+    const GenerateResult bright = run(protocolText() + "[display]\npeak = 1000\nambientLux = 0\n");
+    EXPECT_EQ(bright.kept, 4);
+    EXPECT_EQ(bright.manifest.display->peak, 1000);
+    EXPECT_NE(bright.manifest.conditions[0].image("b").quality->jod,
+              made.conditions[0].image("b").quality->jod);
+    EXPECT_EQ(bright.manifest.conditions[0].image("b").milliseconds,
+              again.manifest.conditions[0].image("b").milliseconds);
+}
+
+// Rays of one level serve the next, and no others.
+TEST_F(Generate, RaysAreTracedOnceForAllLevels) {
+    makeCorner();
+    const Protocol protocol = parseProtocol(tracedText(), "tiny.toml");
+    SceneHashes scenes(folders());
+    const Recipe low = makeRecipe(protocol, protocol.conditions[0], 2, scenes, context_->driver()),
+                 high = makeRecipe(protocol, protocol.conditions[1], 1, scenes, context_->driver());
+    Recipe other = high, near = high;
+    other.seed += 1;
+    near.settings["radius"] = 0.1;
+    RecipeRenderer shared(folders());
+    shared.render(low);
+    for (const Recipe& recipe : {high, other, near})
+        EXPECT_EQ(shared.render(recipe).image.pixels,
+                  RecipeRenderer(folders()).render(recipe).image.pixels);
 }
 
 TEST_F(Generate, RendersAgainWhatASettingConcerns) {
@@ -323,7 +439,9 @@ TEST_F(Generate, DepthIsPartOfWhatMustMatch) {
 }
 
 TEST_F(Generate, EveryImageCanBeMadeAgainFromItsRecipeAlone) {
-    run();
+    Manifest manifest = run().manifest;
+    manifest.conditions[0].image("b").milliseconds = 1e6; // decides nothing
+    writeManifest(root_ / "out" / "manifest.json", manifest);
     EXPECT_EQ(verified(), 0);
 }
 

@@ -47,7 +47,7 @@ Manifest sample() {
     manifest.contactSheets = {{"sheet-1.png", std::string(64, '3')},
                               {"sheet-2.png", std::string(64, '4')}};
     manifest.display = displays()[1];
-    manifest.timing = {"by a clock", "llvmpipe", "a processor", 2.0 / 3};
+    manifest.timing = {"by a clock", "llvmpipe", "a processor", {{"box", 2.0 / 3}}};
     return manifest;
 }
 

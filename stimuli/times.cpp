@@ -1,0 +1,86 @@
+#include "stimuli/times.h"
+
+#include "base/percentile.h"
+#include "base/random.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <numeric>
+#include <thread>
+
+namespace obscura {
+
+namespace {
+
+constexpr int leastRounds = 3, mostRounds = 30;
+constexpr double secondsEach = 0.5; // of a technique on average, in all rounds
+
+struct Runner {
+    Settings settings;
+    OcclusionPasses passes;
+    std::vector<double> milliseconds;
+};
+
+double run(const Probe& probe, const Runner& runner, gl::Timer& timer) {
+    timer.start();
+    probe.run(runner.settings, runner.passes);
+    timer.mark();
+    return 1e3 * timer.pieces().front();
+}
+
+Settings anchorOf(double radius) {
+    Settings settings(technique("starcraft"));
+    settings.set("radius", radius);
+    settings.set("samples", 16);
+    settings.set("blur", 1);
+    return settings;
+}
+
+} // namespace
+
+TechniqueTimes timesOf(const Probe& probe, std::span<const Settings> techniques, double radius,
+                       gl::Timing timing, std::uint64_t seed) {
+    std::vector<Settings> all(techniques.begin(), techniques.end());
+    all.push_back(anchorOf(radius));
+    std::vector<Runner> runners;
+    for (const Settings& settings : all)
+        runners.push_back({settings, probe.passesFor(settings), {}});
+    gl::Timer timer(timing);
+    for (const Runner& runner : runners)
+        if (!runner.settings.technique().passes.empty())
+            run(probe, runner, timer); // compiled and warm
+    Random random(seed, "timing order");
+    std::vector<std::size_t> order(runners.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    double spent = 0;
+    for (int round = 0;
+         round < leastRounds ||
+         (round < mostRounds && spent < 1e3 * secondsEach * static_cast<double>(runners.size()));
+         ++round) {
+        random.shuffle(order);
+        for (const std::size_t i : order)
+            if (!runners[i].settings.technique().passes.empty()) {
+                runners[i].milliseconds.push_back(run(probe, runners[i], timer));
+                spent += runners[i].milliseconds.back();
+            }
+    }
+    TechniqueTimes times;
+    for (const Runner& runner : runners)
+        times.milliseconds.push_back(
+            runner.milliseconds.empty() ? 0 : percentile(runner.milliseconds, 0.5));
+    times.starcraft = times.milliseconds.back();
+    times.milliseconds.pop_back();
+    return times;
+}
+
+std::string processorName() {
+    std::string model = "unknown";
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; model == "unknown" && std::getline(file, line);)
+        if (line.starts_with("model name") && line.find(": ") != line.npos)
+            model = line.substr(line.find(": ") + 2);
+    return fmt::format("{} ({} cores)", model, std::thread::hardware_concurrency());
+}
+
+} // namespace obscura
