@@ -18,7 +18,7 @@ using fmt::format;
 constexpr double letter = 0.07, line = 0.15; // inches, of small type on the page
 constexpr double beside = 0.085;             // inches from people's mark to the predicted one
 
-constexpr double left = 0.64, right = 0.16, below = 0.5, title = 0.26; // of a panel
+constexpr double left = 0.64, right = 0.16, below = 0.54, title = 0.26; // of a panel
 
 constexpr const char* peopleColour = "#0B5394";
 constexpr const char* predictedColour = "#B35900";
@@ -140,10 +140,12 @@ std::string chartScript(const PricedScale& scale, const PriceAxes& axes, std::si
     const std::string name = format("chart{}", number);
     std::string script = plot::block(name + "people", people) + plot::block(name + "front", front) +
                          axes.script() + plateauScript(scale, axes) + names(scale, axes);
+    // Two colours, for gnuplot's SVG draws the second of two alike as it drew the first.
     for (const auto& [jod, style] :
-         {std::pair(0.0, "linewidth 1"), std::pair(-noticeableJod, "linewidth 1 dashtype 2")})
-        script += format("set arrow from graph 0, first {0} to graph 1, first {0} nohead back {1} "
-                         "linecolor rgb '#777777'\n",
+         {std::pair(0.0, "linecolor rgb '#777777'"),
+          std::pair(-noticeableJod, "dashtype 2 linecolor rgb '#666666'")})
+        script += format("set arrow from graph 0, first {0} to graph 1, first {0} nohead back "
+                         "linewidth 1 {1}\n",
                          jod, style);
     std::vector<std::string> plots = {
         format("${}front using 1:2 with steps linewidth 1 linecolor rgb '{}' notitle", name,
@@ -227,7 +229,11 @@ Figure priceChart(const Findings& findings, const std::vector<const PricedScale*
     Figure figure{name, heading, {}, layout.width, height};
     figure.script =
         plot::style + format("set minussign\nset bars 0\nunset key\nset grid noxtics ytics\n"
-                             "set xlabel 'milliseconds' offset 0, 0.4\nset multiplot\n");
+                             "set xlabel 'milliseconds' offset 0, 0.1\nset multiplot\n");
+    // Below all else: a picture of its own.
+    if (const std::string stamp = stampScript(findings, layout.width, height); !stamp.empty())
+        figure.script += stamp + "unset border\nunset tics\nset xlabel ' '\nplot [0:1] [0:1] NaN "
+                                 "notitle\nset border 3\nset xlabel 'milliseconds'\n";
     for (std::size_t i = 0; i < scales.size(); ++i) {
         const double x = column * static_cast<double>(i % layout.columns);
         const double top =
@@ -249,8 +255,7 @@ Figure priceChart(const Findings& findings, const std::vector<const PricedScale*
                                     gnuplotBold(panelTitle(scales[i]->group)),
                                     (x + 0.1) / layout.width, (top + 0.13) / height);
         if (i == 0)
-            figure.script +=
-                keyScript(key, layout.width, height) + stampScript(findings, layout.width, height);
+            figure.script += keyScript(key, layout.width, height);
         figure.script += chartScript(*scales[i], axes, i);
     }
     figure.script += "unset multiplot\n";

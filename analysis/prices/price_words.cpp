@@ -37,9 +37,10 @@ std::string enough(const PricedScale& scale) {
                       "better by {} JOD",
                       named(scale, place.technique), noticeableJod, place.seen,
                       spelt(place.seenBy, 2));
-    return format("beyond {} more milliseconds bought nothing that people saw: what is dearer is "
-                  "{} (95 %; the limit is {:g}, with which 63 of 100 would choose it)",
-                  named(scale, place.technique), atMost(place.most), noticeableJod);
+    return format(
+        "beyond {} more milliseconds bought nothing that people saw: what is dearer is {} "
+        "(95 %)",
+        named(scale, place.technique), atMost(place.most));
 }
 
 // The dearest technique below the reference, which still falls short.
@@ -96,9 +97,10 @@ std::string predictionSentence(const Prediction& prediction) {
 
 std::vector<std::string> priceSentences(const std::vector<PricedScale>& scales) {
     std::vector<std::string> sentences;
-    for (const PricedScale& scale : scales)
-        if (scale.hasPrices())
-            sentences.push_back(plateauSentence(scale));
+    for (const bool pooled : {true, false})
+        for (const PricedScale& scale : scales)
+            if (scale.hasPrices() && scale.group.isPooled() == pooled)
+                sentences.push_back(plateauSentence(scale));
     if (sentences.empty() && !scales.empty())
         sentences.push_back(
             "No chart of milliseconds and JOD: the stimuli's manifest has no times, "
