@@ -41,8 +41,10 @@ struct Heading {
 
 std::optional<Heading> headingOf(const PricedScale& scale, const PriceAxes& axes) {
     const auto& place = scale.enough ? scale.enough : scale.untold;
-    if (!place)
+    if (!place && !scale.seesAll())
         return std::nullopt;
+    if (!place)
+        return Heading{"people saw what the dearest bought", 0.02, false};
     const Priced& one = scale.techniques[place->technique];
     Heading heading{scale.enough
                         ? place->seen.empty()
@@ -100,13 +102,18 @@ std::string names(const PricedScale& scale, const PriceAxes& axes) {
                          axes.height() - line - 0.03,
                          heading->isLeft ? heading->x : heading->x + width, axes.height()});
     }
+    for (const double jod : {0.0, -noticeableJod})
+        taken.push_back({0, axes.y(jod) - 0.01, axes.width(), axes.y(jod) + 0.01});
     for (std::size_t k = 0; k < scale.front.size(); ++k) { // the staircase
-        const double x = axes.x(scale.techniques[scale.front[k]]),
-                     y = axes.y(scale.techniques[scale.front[k]].people);
-        taken.push_back({x, y - 0.01,
-                         k + 1 < scale.front.size() ? axes.x(scale.techniques[scale.front[k + 1]])
-                                                    : axes.width(),
-                         y + 0.01});
+        const Priced& here = scale.techniques[scale.front[k]];
+        const double x = axes.x(here), y = axes.y(here.people);
+        if (k + 1 == scale.front.size()) {
+            taken.push_back({x, y - 0.01, axes.width(), y + 0.01});
+            break;
+        }
+        const Priced& next = scale.techniques[scale.front[k + 1]];
+        taken.push_back({x, y - 0.01, axes.x(next), y + 0.01});
+        taken.push_back({axes.x(next) - 0.01, y, axes.x(next) + 0.01, axes.y(next.people)});
     }
     std::string script;
     const auto boxes =

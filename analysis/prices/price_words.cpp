@@ -49,7 +49,7 @@ std::string nothing(const PricedScale& scale) {
     for (std::size_t i = 0; i < scale.techniques.size(); ++i)
         if (i != scale.reference && (scale.isTraced || i < scale.reference))
             last = i;
-    if (last == scale.techniques.size() || !scale.techniques[last].interval.high)
+    if (last == scale.techniques.size() || !scale.seesAll())
         return "without intervals nobody can say from where on milliseconds bought nothing";
     const Priced& one = scale.techniques[last];
     return format("people saw what the dearest milliseconds bought: each cheaper technique falls "
