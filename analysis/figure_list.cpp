@@ -1,6 +1,7 @@
 #include "analysis/figure_list.h"
 
 #include "analysis/people_figures.h"
+#include "analysis/prices/price_figure.h"
 #include "analysis/scales/scale_figures.h"
 
 #include <iterator>
@@ -15,8 +16,12 @@ std::vector<StudyFigure> usableScales(const Findings& findings) {
     return isUnusable(findings) ? std::vector<StudyFigure>() : scaleFigures(findings);
 }
 
-constexpr FiguresOf kinds[] = {sharesFigures, usableScales, positionFigures, powerFigures,
-                               flowFigures,   timesFigures, timingFigures};
+std::vector<StudyFigure> usablePrices(const Findings& findings) {
+    return isUnusable(findings) ? std::vector<StudyFigure>() : priceFigures(findings);
+}
+
+constexpr FiguresOf kinds[] = {usablePrices, sharesFigures, usableScales, positionFigures,
+                               powerFigures, flowFigures,   timesFigures, timingFigures};
 
 } // namespace
 

@@ -7,6 +7,7 @@
 #include "analysis/golden/golden.h"
 #include "analysis/people_table.h"
 #include "analysis/plan/command.h"
+#include "analysis/prices/price_table.h"
 #include "analysis/report.h"
 #include "analysis/results.h"
 #include "analysis/scales/scale_table.h"
@@ -178,9 +179,13 @@ int analyse(int argc, char** argv) {
             writeFile(options.out / "people.csv", peopleCsv(findings));
             writeFile(options.out / "times.csv", timesCsv(findings));
         }
-        writeFile(options.out / "results.csv", resultsCsv(findings));
-        writeFile(options.out / "results.json", resultsJson(findings));
     }
+    writeFile(options.out / "results.csv", resultsCsv(findings));
+    writeFile(options.out / "results.json", resultsJson(findings));
+    if (findings.stimuli && !isUnusable(findings))
+        if (const std::string ladder = ladderCsv(pricedScales(findings.scales, *findings.stimuli));
+            !ladder.empty())
+            writeFile(options.out / "ladder.csv", ladder);
     if (!isPairs || !findings.scales.all.empty())
         writeFile(isPairs ? options.out / "scales.csv" : csv,
                   scalesCsv(findings.scales, sourceOf(findings)));

@@ -1,5 +1,6 @@
 #include "analysis/results.h"
 
+#include "analysis/results_scales.h"
 #include "analysis/statistics.h"
 #include "analysis/verdict.h"
 #include "base/csv.h"
@@ -16,7 +17,6 @@ namespace obscura {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using Numbers = std::vector<std::pair<std::string, std::optional<double>>>;
 
 Numbers numbersOf(const Tally& tally, const std::optional<Verdict>& verdict) {
     Numbers numbers = {{"votes_a", static_cast<double>(tally.votes.a)},
@@ -125,6 +125,9 @@ std::string resultsCsv(const Findings& findings) {
                      numbersOf(findings.tallies[i], verdicts[i]));
     for (const Tested& tested : findings.tests)
         csv += lines("test", subjectOf(tested), numbersOf(tested));
+    for (const ScaleNumbers& scale : scaleNumbers(findings))
+        for (const auto& [item, numbers] : scale.items)
+            csv += lines("scale", fmt::format("{}: {}", scale.subject, item), numbers);
     return csv;
 }
 
@@ -137,6 +140,7 @@ std::string resultsJson(const Findings& findings) {
                  {"claims", Json::array()},
                  {"conditions", Json::array()},
                  {"tests", Json::array()},
+                 {"scales", Json::array()},
                  {"exclusions", Json::array()}};
     for (const ClaimResult& claim : findings.claims)
         json["claims"].push_back(objectOf(claim));
@@ -150,6 +154,21 @@ std::string resultsJson(const Findings& findings) {
                                  {"about", tested.result.about},
                                  {"note", tested.result.note},
                                  {"statistics", objectOf(numbersOf(tested))}});
+    for (const ScaleNumbers& scale : scaleNumbers(findings)) {
+        Json items = Json::array();
+        for (const auto& [item, numbers] : scale.items)
+            items.push_back({{"name", item}, {"statistics", objectOf(numbers)}});
+        json["scales"].push_back({{"subject", scale.subject},
+                                  {"scale", scale.id},
+                                  {"question", scale.question},
+                                  {"scene", scale.scene},
+                                  {"level", scale.level},
+                                  {"unit", scale.unit},
+                                  {"reference", scale.reference},
+                                  {"intervals", scale.intervals},
+                                  {"notes", scale.notes},
+                                  {"items", items}});
+    }
     for (const Exclusion& exclusion : findings.exclusions)
         json["exclusions"].push_back({{"participant", exclusion.participant},
                                       {"session", exclusion.session},

@@ -10,12 +10,12 @@ namespace obscura {
 // Everything that was found, for programs. Statistics are named by the keys of golden_values.csv
 // where these have them, else by the columns of votes.csv.
 
-// Tidy: of,subject,statistic,value, a line for each number. `of` is condition, claim or test. What
-// does not exist has no line.
+// Tidy: of,subject,statistic,value, a line for each number. `of` is condition, claim, test or
+// scale. What does not exist has no line.
 std::string resultsCsv(const Findings& findings);
 
 // The same with all texts, as one object: source, title, cautions, summary, claims, conditions,
-// tests, exclusions.
+// tests, scales, exclusions.
 std::string resultsJson(const Findings& findings);
 
 // A line for each reason and person: participant_id,session_id,reason,trials.

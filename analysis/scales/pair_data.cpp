@@ -107,27 +107,16 @@ Comparisons comparisonsOf(const ScaleGroup& group, const Members& members,
     return result;
 }
 
-// Preference for b against how much more occlusion it has.
-void addLadder(ScaleData& data, const ScaleGroup& group, const Members& members,
-               const Manifest* stimuli) {
+// Preference for b against how its image differs.
+void addLadders(ScaleData& data, const ScaleGroup& group, const Members& members,
+                const Manifest* stimuli) {
     std::vector<Step> steps;
-    std::set<double> differences;
-    for (const Tally* tally : members) {
-        const auto difference = stimulusDifference(stimuli, tally->condition, "a", "b");
-        if (!difference)
-            return;
-        differences.insert(*difference);
-        steps.push_back({tally->condition,
-                         fmt::format("{} > {}", tally->techniqueB, tally->techniqueA), difference,
-                         static_cast<double>(tally->votes.b),
-                         static_cast<double>(tally->votes.total())});
-    }
-    if (differences.size() < 3)
-        return;
-    Ladder ladder{group};
-    ladder.success = "choices of b";
-    setLevels(ladder, steps, false);
-    data.ladders.push_back(std::move(ladder));
+    for (const Tally* tally : members)
+        steps.push_back(
+            {tally->condition, fmt::format("{} > {}", tally->techniqueB, tally->techniqueA),
+             differencesOf(stimuli, tally->condition, "a", "b"),
+             static_cast<double>(tally->votes.b), static_cast<double>(tally->votes.total())});
+    addPairLadders(data.ladders, group, steps, stimuli, "choices of b");
 }
 
 } // namespace
@@ -138,7 +127,7 @@ ScaleData scaleData(const std::vector<Tally>& tallies, const std::vector<Answer>
     for (const auto& [group, members] : groupsOf(tallies)) {
         if (group.items.size() >= 3)
             data.comparisons.push_back(comparisonsOf(group, members, answers));
-        addLadder(data, group, members, stimuli);
+        addLadders(data, group, members, stimuli);
     }
     return data;
 }

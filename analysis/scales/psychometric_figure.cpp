@@ -30,6 +30,9 @@ double labelWidth(const Ladder& ladder) {
     return ladder.isOrder ? width : 0;
 }
 
+// Choices between two that the metric itself predicts: 1 JOD is 75 of 100.
+bool hasPrediction(const Ladder& ladder) { return ladder.isPredicted && ladder.guess == 0; }
+
 Panel curvePanel(const ScaleResult& result, std::size_t index, std::string& blocks) {
     const auto& [ladder, model, parameters] = *result.curve;
     Panel panel{panelTitle(result.group), {}, 1.9};
@@ -43,8 +46,7 @@ Panel curvePanel(const ScaleResult& result, std::size_t index, std::string& bloc
     std::string points, curve;
     for (Eigen::Index i = 0; i < ladder.data.level.size(); ++i) {
         const double trials = ladder.data.trials(i), successes = ladder.data.successes(i);
-        const Interval interval =
-            wilson(static_cast<std::int64_t>(successes), static_cast<std::int64_t>(trials));
+        const Interval interval = wilson(std::llround(successes), std::llround(trials));
         points +=
             format("{} {} {} {} {}\n", seenLevel(ladder, i), successes / trials, interval.low,
                    interval.high, 0.5 + 0.7 * std::sqrt(trials / ladder.data.trials.maxCoeff()));
@@ -96,8 +98,13 @@ Panel curvePanel(const ScaleResult& result, std::size_t index, std::string& bloc
                "  ${}points using 1:2:3:4 with yerrorbars linewidth 1 pointtype 7 pointsize 0.1 "
                "linecolor rgb '#000000' notitle, \\\n"
                "  ${}points using 1:2:5 with points pointtype 7 pointsize variable linecolor rgb "
-               "'#000000' notitle\n",
+               "'#000000' notitle",
                model.guess, scaleGrey, name, name, name, name);
+    if (hasPrediction(ladder))
+        panel.script += format(", \\\n  norm({} * x) with lines linewidth 1 dashtype 4 linecolor "
+                               "rgb '#B35900' notitle",
+                               jodUnit);
+    panel.script += "\n";
     return panel;
 }
 
@@ -134,11 +141,18 @@ StudyFigure psychometricFigure(const ScaleKind& kind, const ScaleResults& result
         if (labelWidth(result->curve->ladder) > 2.5)
             layout.below = 0.9;
     const PanelFigure made = panelFigure(blocks, begin, panels, layout, stamp);
-    figure.drawing = {name, std::string(kind.heading), made.script, made.width, made.height};
+    figure.drawing = {name,
+                      first.isOrder ? std::string(kind.heading)
+                                    : format("{} of the {}", kind.heading, first.axis),
+                      made.script, made.width, made.height};
     figure.caption = format(
         "{} ({}): share of {} with Wilson's 95 % intervals, larger for more answers; the fitted "
-        "curve; in orange its threshold with the 95 % interval ({}). Dotted: what guessing gives.",
-        kind.heading, kind.source, first.success, results.front()->intervals);
+        "curve; in orange its threshold with the 95 % interval ({}). Dotted: what guessing "
+        "gives.{}",
+        kind.heading, kind.source, first.success, results.front()->intervals,
+        hasPrediction(first) ? " Thin and brown: how often people would choose b if 1 predicted "
+                               "JOD were 1 of theirs."
+                             : "");
     return figure;
 }
 

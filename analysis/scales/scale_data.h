@@ -71,10 +71,11 @@ struct Triads : ScaleGroup {
 };
 
 // Answers against a number; guessing gives `guess` of them.
-struct Ladder : ScaleGroup { // items are the steps
-    std::string axis{};      // what the number is
-    bool isOrder = false;    // it is only the place in the protocol's order
-    bool isFalling = false;  // the share falls with it: levels are negated
+struct Ladder : ScaleGroup {  // items are the steps
+    std::string axis{};       // what the number is
+    bool isPredicted = false; // it is a difference in predicted JOD
+    bool isOrder = false;     // it is only the place in the protocol's order
+    bool isFalling = false;   // the share falls with it: levels are negated
     double guess = 0;
     PsychometricData data{};
     std::vector<std::string> labels{}; // of each level
@@ -100,10 +101,18 @@ ScaleData scaleData(const std::vector<Tally>& tallies, const std::vector<Answer>
 // Of other trials: what each question is follows from its kind, its roles and the study's design.
 ScaleData scaleData(const TrialAnswers& study, const Manifest* stimuli);
 
-// How much the images of two roles differ, as a number; absent where the stimuli do not say. The
-// one place that knows which measure: the mean occlusion of b less that of a.
-std::optional<double> stimulusDifference(const Manifest* stimuli, const std::string& condition,
-                                         const std::string& a, const std::string& b);
-extern const char* const stimulusDifferenceName;
+// How the images of two roles differ, as a number against which choices are held: the one place
+// that knows which. Of a measure the value of b less that of a.
+struct StimulusMeasure {
+    const char* name;                                // of the difference
+    std::optional<double> (*of)(const ImageRecord&); // absent where it is not known
+    bool isPredicted;                                // JOD
+};
+// Those that stimuli have of all their images, the best first: predicted JOD and RMSE of visibility
+// against the reference or, in manifests without these, mean occlusion. None without stimuli.
+std::vector<const StimulusMeasure*> stimulusMeasures(const Manifest* stimuli);
+std::optional<double> stimulusDifference(const Manifest& stimuli, const StimulusMeasure& measure,
+                                         const std::string& condition, const std::string& a,
+                                         const std::string& b);
 
 } // namespace obscura

@@ -16,36 +16,33 @@ namespace {
 
 constexpr int samples = 2000;
 
-// Rows: one for each item but the first, and one for each step; columns: the scale's values.
+// A row for each of `pairs`; columns: the scale's values.
 Eigen::MatrixXd contrasts(const ScaleResult& result) {
-    const auto n = static_cast<Eigen::Index>(result.items.size());
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2 * (n - 1), n);
-    for (Eigen::Index i = 1; i < n; ++i) {
-        rows(i - 1, i) = 1;
-        rows(i - 1, 0) = -1;
-    }
-    for (std::size_t i = 0; i < result.steps.size(); ++i) {
-        const auto row = n - 1 + static_cast<Eigen::Index>(i);
-        rows(row, static_cast<Eigen::Index>(result.steps[i].to)) += 1;
-        rows(row, static_cast<Eigen::Index>(result.steps[i].from)) -= 1;
+    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(result.pairs.size()),
+                                                 static_cast<Eigen::Index>(result.items.size()));
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+        rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(result.pairs[i].to)) = 1;
+        rows(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(result.pairs[i].from)) = -1;
     }
     return rows;
 }
 
+// Items are differences from the first of them, and steps those of neighbours.
 void setErrors(ScaleResult& result, const Eigen::VectorXd& errors,
                const std::vector<Interval>& intervals) {
-    const std::size_t others = result.items.size() - 1;
-    for (std::size_t i = 0; i < others; ++i) {
-        result.items[i + 1].standardError = errors(static_cast<Eigen::Index>(i));
-        result.items[i + 1].interval = {intervals[i].low, intervals[i].high};
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
+        result.pairs[i].standardError = errors(static_cast<Eigen::Index>(i));
+        result.pairs[i].interval = {intervals[i].low, intervals[i].high};
     }
-    for (std::size_t i = 0; i < result.steps.size(); ++i) {
-        ScaleStep& step = result.steps[i];
-        const double error = errors(static_cast<Eigen::Index>(others + i));
-        step.standardError = error;
-        step.interval = {intervals[others + i].low, intervals[others + i].high};
-        if (error > 0)
-            step.p = normalP(step.difference / error);
+    for (std::size_t i = 1; i < result.items.size(); ++i) {
+        const auto fromFirst = differenceOf(result, 0, i);
+        result.items[i].standardError = fromFirst->standardError;
+        result.items[i].interval = fromFirst->interval;
+    }
+    for (ScaleStep& step : result.steps) {
+        step = *differenceOf(result, step.from, step.to);
+        if (*step.standardError > 0)
+            step.p = normalP(step.difference / *step.standardError);
     }
 }
 
@@ -83,14 +80,10 @@ void propagate(ScaleResult& result, const Eigen::MatrixXd& rows,
         (rows * covariance * rows.transpose()).diagonal().array().max(0).sqrt();
     const double z = quantile(Link::probit, 0.975);
     std::vector<Interval> intervals;
-    for (std::size_t i = 0; i + 1 < result.items.size(); ++i) {
+    for (std::size_t i = 0; i < result.pairs.size(); ++i) {
         const double error = z * errors(static_cast<Eigen::Index>(i));
-        intervals.push_back({result.items[i + 1].value - error, result.items[i + 1].value + error});
-    }
-    for (std::size_t i = 0; i < result.steps.size(); ++i) {
-        const double error = z * errors(static_cast<Eigen::Index>(result.items.size() - 1 + i));
         intervals.push_back(
-            {result.steps[i].difference - error, result.steps[i].difference + error});
+            {result.pairs[i].difference - error, result.pairs[i].difference + error});
     }
     setErrors(result, errors, intervals);
 }
@@ -125,6 +118,22 @@ std::vector<std::size_t> orderOf(const ScaleResult& result) {
     return order;
 }
 
+std::optional<ScaleStep> differenceOf(const ScaleResult& result, std::size_t from, std::size_t to) {
+    for (const ScaleStep& pair : result.pairs) {
+        if (pair.from == from && pair.to == to)
+            return pair;
+        if (pair.from != to || pair.to != from)
+            continue;
+        ScaleStep turned{from, to, -pair.difference, pair.standardError};
+        if (pair.interval.high)
+            turned.interval.low = -*pair.interval.high;
+        if (pair.interval.low)
+            turned.interval.high = -*pair.interval.low;
+        return turned;
+    }
+    return std::nullopt;
+}
+
 void correctSteps(ScaleResult& result) {
     std::vector<double> p;
     for (const ScaleStep& step : result.steps)
@@ -146,6 +155,9 @@ void addScale(ScaleResult& result, const Eigen::VectorXd& values, const Eigen::M
     for (std::size_t i = 0; i + 1 < order.size(); ++i)
         result.steps.push_back({order[i], order[i + 1],
                                 result.items[order[i + 1]].value - result.items[order[i]].value});
+    for (std::size_t to = 1; to < result.items.size(); ++to)
+        for (std::size_t from = 0; from < to; ++from)
+            result.pairs.push_back({from, to, result.items[to].value - result.items[from].value});
     const Eigen::MatrixXd rows = contrasts(result);
     if (!resample(result, rows, refit)) {
         if (covariance.size() > 0) {

@@ -59,7 +59,8 @@ struct ScaleResult {
     std::string intervals;          // how they came about
     std::vector<std::string> notes; // what to know before believing it; why there is none
     std::optional<ScaleCurve> curve{};
-    bool isOrdered = false; // items have an order of their own, that of a ladder's steps
+    std::vector<ScaleStep> pairs{}; // every two items, from < to, without p; none of a curve
+    bool isOrdered = false;         // items have an order of their own, that of a ladder's steps
 };
 
 ScaleResult resultOf(const ScaleGroup& group, std::string unit);
@@ -71,6 +72,10 @@ using Refit = std::function<std::optional<Eigen::VectorXd>(std::span<const int> 
 // can be asked and there are enough of them, else from the covariance (an empty one: none).
 void addScale(ScaleResult& result, const Eigen::VectorXd& values, const Eigen::MatrixXd& covariance,
               const Refit& refit);
+
+// How far an item lies above another, with the interval of that difference; absent where the scale
+// has no pairs, or for an item and itself.
+std::optional<ScaleStep> differenceOf(const ScaleResult& result, std::size_t from, std::size_t to);
 
 // p of each step, and Holm's.
 void correctSteps(ScaleResult& result);

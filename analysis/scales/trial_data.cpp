@@ -21,6 +21,9 @@ class Counter {
     ScaleData data() {
         ScaleData data;
         for (const auto& [group, form, members] : answers_.groups) {
+            if (form == AnswerForm::comparison)
+                addPairLadders(data.ladders, counted(group, members), pairSteps(members), stimuli_,
+                               "choices of b, \"not sure\" half of one");
             if (form == AnswerForm::comparison || form == AnswerForm::boosted ||
                 form == AnswerForm::plain)
                 data.comparisons.push_back(comparisons(group, form, members));
@@ -119,6 +122,35 @@ class Counter {
             result.ties += result.tiesOf[i];
         }
         return result;
+    }
+
+    ScaleGroup counted(ScaleGroup group, const std::vector<Observation>& members) {
+        fill(group, members, false);
+        return group;
+    }
+
+    // Of each condition how often b was preferred to a.
+    std::vector<Step> pairSteps(const std::vector<Observation>& members) const {
+        std::map<std::string, Step> steps; // by condition
+        for (const auto& [trial, given, person] : members) {
+            if (given->value == Symbol())
+                continue;
+            const std::string& id = trial->trial.row.conditionId;
+            Step& step = steps[id];
+            if (step.trials == 0)
+                step = {id,
+                        fmt::format("{} > {}", trial->techniqueOf("b"), trial->techniqueOf("a")),
+                        differencesOf(stimuli_, id, "a", "b")};
+            ++step.trials;
+            step.successes += given->value.text() == "unsure" ? 0.5
+                              : given->role.text() == "b"     ? 1
+                                                              : 0;
+        }
+        std::vector<Step> inOrder;
+        for (const std::string& condition : answers_.conditions)
+            if (const auto step = steps.find(condition); step != steps.end())
+                inOrder.push_back(step->second);
+        return inOrder;
     }
 
     Ratings ratings(const ScaleGroup& group, AnswerForm form,
@@ -235,7 +267,7 @@ class Counter {
             step.label = trial->techniqueOf(other);
             wrong.insert(step.label);
             right[id] = trial->techniqueOf(correct);
-            step.difference = stimulusDifference(stimuli_, id, other, correct);
+            step.differences = differencesOf(stimuli_, id, other, correct);
             step.successes += given->role.text() == correct;
             ++step.trials;
             result.guess = 1.0 / static_cast<double>(trial->roles.size());
@@ -252,7 +284,7 @@ class Counter {
                 if (wrong.size() == 1) // it is the right one that changes from step to step
                     inOrder.back().label = right[condition];
             }
-        setLevels(result, inOrder, true);
+        setLevels(result, inOrder, stimuli_, orderlyMeasure(inOrder));
         return result;
     }
 
@@ -268,6 +300,8 @@ void dropDoubles(std::vector<Kind>& groups) {
     const auto key = [](const Kind& one) {
         if constexpr (std::is_same_v<Kind, Comparisons>)
             return std::pair(one.question, one.isBoosted);
+        else if constexpr (std::is_same_v<Kind, Ladder>)
+            return std::pair(one.question + one.axis, false);
         else
             return std::pair(one.question, false);
     };
@@ -284,6 +318,7 @@ ScaleData scaleData(const TrialAnswers& study, const Manifest* stimuli) {
     dropDoubles(data.ratings);
     dropDoubles(data.rankings);
     dropDoubles(data.triads);
+    dropDoubles(data.ladders);
     return data;
 }
 

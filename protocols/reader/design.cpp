@@ -290,7 +290,7 @@ Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
                  conditions, boost, trial, before, after, keys, screen, display, ordering, claims,
                  exclusions, words, translations, simulation, path, sha256] = protocol;
-    const auto& [positionBias, viewTime, decision] = simulation;
+    const auto& [positionBias, lapse, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
     Parts result;
@@ -332,6 +332,8 @@ Parts split(const Protocol& protocol) {
           {"view", toJson(viewTime)},
           {"decision", toJson(decision)}}},
         {"conditions", parts.simulated}};
+    if (lapse > 0) // studies without keep their hash
+        result.texts["simulation"]["lapse"] = lapse;
     if (!(display == displays().front())) // it only predicts
         result.texts["display"] = toJson(display);
     for (const Texts& translation : translations)

@@ -126,6 +126,36 @@ TEST(ScalesOfPairs, CorrectTheStepsBetweenNeighboursByHolm) {
     EXPECT_NEAR(*std::min_element(adjusted.begin(), adjusted.end()), 3 * least, 1e-12);
 }
 
+// From whichever technique a scale begins, two of them are as far apart.
+TEST(ScalesOfPairs, HaveTheIntervalOfEveryDifference) {
+    const test::Folder folder;
+    std::vector<Pair> turned; // begins at the last one
+    for (auto pair = tournament.rbegin(); pair != tournament.rend(); ++pair) {
+        std::string chosen = pair->chosen;
+        for (char& one : chosen)
+            one = one == '1' ? '0' : '1';
+        turned.push_back({pair->b, pair->a, chosen});
+    }
+    const Findings one = study(folder / "one", tournament), other = study(folder / "other", turned);
+    const ScaleResult &scale = resultOf(one.scales, "thurstone"),
+                      &fromLast = resultOf(other.scales, "thurstone");
+    ASSERT_EQ(scale.pairs.size(), 6u);
+    ASSERT_EQ(fromLast.items[0].name, "RayMarching30");
+    for (std::size_t i = 1; i < fromLast.items.size(); ++i) {
+        const ScaleItem& item = fromLast.items[i];
+        std::size_t same = 0;
+        while (scale.items[same].name != item.name)
+            ++same;
+        const auto step = differenceOf(scale, 3, same);
+        ASSERT_TRUE(step) << item.name;
+        EXPECT_NEAR(step->difference, item.value, 1e-6);
+        EXPECT_NEAR(*step->standardError, *item.standardError, 1e-6);
+        EXPECT_NEAR(*step->interval.low, *item.interval.low, 1e-6);
+        EXPECT_NEAR(*step->interval.high, *item.interval.high, 1e-6);
+    }
+    EXPECT_FALSE(differenceOf(scale, 2, 2));
+}
+
 TEST(ScalesOfPairs, SayWhoWasNeverCompared) {
     const test::Folder folder;
     const Findings findings =
@@ -205,10 +235,28 @@ TEST(ScalesOfPairs, HoldChoicesAgainstTheStimuli) {
     const ScaleFindings scales = scaleFindings(tallies, nullptr, &stimuli);
     const ScaleResult& curve = resultOf(scales, "psychometric", "sky");
     ASSERT_TRUE(curve.curve) << curve.notes.front();
-    EXPECT_EQ(curve.unit, stimulusDifferenceName);
+    EXPECT_EQ(curve.unit, "difference in mean occlusion");
     EXPECT_NEAR(curve.items[0].value, 0, 1e-3);
     EXPECT_LT(*curve.items[0].interval.low, -0.01);
     EXPECT_GT(*curve.items[0].interval.high, 0.01);
+    // Where they tell how far each image is from the reference, that counts instead.
+    for (int i = 0; i < 5; ++i) {
+        ConditionRecord& record = stimuli.conditions[static_cast<std::size_t>(i)];
+        record.image("a").quality = ImageQuality{0.2, 8, {}};
+        record.image("b").quality = ImageQuality{0.2 - difference[i], 8 + 10 * difference[i], {}};
+    }
+    std::vector<std::string> axes;
+    std::vector<double> thresholds;
+    for (const Scaled& one : scaleFindings(tallies, nullptr, &stimuli).all)
+        if (one.result.curve) {
+            axes.push_back(one.result.unit);
+            thresholds.push_back(one.result.items[0].value);
+        }
+    EXPECT_THAT(axes, testing::ElementsAre("difference in predicted JOD",
+                                           "difference in RMSE from the reference"));
+    EXPECT_THAT(thresholds, testing::Each(testing::DoubleNear(0, 1e-3)));
+    stimuli.conditions[2].image("b").derived = Derivation(); // boosted: no longer so far
+    EXPECT_EQ(stimulusMeasures(&stimuli).size(), 1u);
     EXPECT_TRUE(scaleFindings(tallies, nullptr, nullptr).all.empty() ||
                 !scaleFindings(tallies, nullptr, nullptr).all.back().result.curve);
 }

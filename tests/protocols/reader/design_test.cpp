@@ -103,6 +103,7 @@ peak = 150
 
 [simulation]
 positionBias = 0.01
+lapse = 0.015
 view = { mean = 3.1, deviation = 0.81, tail = 2.1 }
 decision = { mean = 0.91, deviation = 0.21, tail = 0.51 }
 )";
@@ -178,6 +179,7 @@ const Turn turns[] = {
     {"standard_4k", "laptop", Part::texts},
     {"peak = 150", "contrast = 150", Part::texts},
     {"positionBias = 0.01", "positionBias = 0.02", Part::texts},
+    {"lapse = 0.015", "lapse = 0.016", Part::texts},
     {"mean = 3.1", "mean = 3.2", Part::texts},
     {"deviation = 0.81", "deviation = 0.82", Part::texts},
     {"tail = 2.1", "tail = 2.2", Part::texts},
