@@ -142,7 +142,8 @@ const MatchMistake matchMistakes[] = {
      "small.toml:24:1: techniques.few.radius: a technique that is matched has each view's radius; "
      "leave this out, or give \"radiusMultiplier\""},
     {"RadiusBesideRadii", "seed = 7", "seed = 7\nradii = [0.5]",
-     "small.toml:13:1: scenes.a.radius: unknown key; one of: file, builtin, camera, exposure"},
+     "small.toml:13:1: scenes.a.radius: unknown key; one of: file, builtin, camera, exposure, "
+     "ground"},
     {"RadiiAreText", "seed = 7", "seed = 7\nradii = [\"wide\"]",
      "small.toml:3:10: radii[1]: expected a number from 0.0001 to 10000, found \"wide\""},
     {"UnknownKey", "rays = 64", "rais = 64",
