@@ -18,6 +18,7 @@ constexpr int width = 160;
 constexpr int fewRays = 16; // a pixel, for a mean
 // Of two images: 63 of 100 would prefer the reference, which 36 people miss more often than not.
 constexpr double leastDifference = 0.5; // JOD
+constexpr double leastMean = 1;         // of 255: more may be seen as a whole being darker
 constexpr double leastSurfaces = 0.05;  // share of pixels
 constexpr double leastOcclusion = 0.01; // mean over surfaces
 
@@ -81,9 +82,9 @@ std::string Warnings::alike(const Condition& condition, const Role& a, const Rol
     Display display = protocol_.display;
     display.distance *= 1.0 * width / protocol_.width;
     const double jod = predictedDifference(first, second, display).jod;
-    if (jod < 10 - leastDifference)
-        return "";
     const Codes difference = differenceOf(first, second);
+    if (jod < 10 - leastDifference || difference.mean > leastMean)
+        return "";
     return fmt::format(
         "condition \"{}\": images {} ({}) and {} ({}) {}; rendered {} pixels wide they differ by "
         "{} of 255 at most and {:.2f} on average, predicted JOD {:.2f} of 10. People would guess: "

@@ -80,7 +80,7 @@ const Kind kinds[] = {
     {"constant-stimuli", "psychometric", 2, "75 % right answers lie between rays"},
     {"flicker", "psychometric", 2, "75 % right answers lie "},
     {"kozlowski-kautz-2007", "mean-opinion", 8, "appeal: atrium, sky: "},
-    {"ladder", "thurstone", 5, "circular triads, of 12 people"},
+    {"ladder", "threshold", 5, "answers \"not sure\""},
     {"demo", "thurstone", 3, "were never compared with each other"},
     {"mlds", "mlds", 1, "corrected by Holm) — larger: atrium, sky: s0"},
     {"p910-acr", "cumulative-link", 4, "quality: atrium, sky: "},
