@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -23,7 +24,7 @@ namespace {
 
 constexpr ImageSize glanceSize{160, 90};
 constexpr int glanceRays = 64, glanceFrames = 5;
-// Errors on one view that differ by less than this are not told apart.
+// Errors on a few small views that differ by less than this are not told apart.
 constexpr double rmseAlike = 0.03;
 // Candidates that are asked at once about what takes long: their truth is the same.
 constexpr std::size_t together = 3;
@@ -40,6 +41,7 @@ ViewResult resultOf(const PictureError& matched, const PictureError& lit) {
     result.rmse = matched.rmse;
     result.flip = matched.flip;
     result.litFlip = lit.flip;
+    result.jod = lit.jod;
     return result;
 }
 
@@ -88,8 +90,9 @@ class Choosing {
     Stages stages_;
     gl::TimingChoice timing_;
     Choice choice_;
-    int failures_ = 0; // of candidates on held-out views
-    double done_ = 0;  // in candidates, each rung counting alike
+    std::map<std::string, std::vector<double>> glances_; // RMSE on each view, by name
+    int failures_ = 0;                                   // of candidates on held-out views
+    double done_ = 0;                                    // in candidates, each rung counting alike
 };
 
 std::vector<Milliseconds> Choosing::milliseconds(std::size_t view,
@@ -135,7 +138,7 @@ std::map<std::string, MatchedTechnique> Choosing::fits(const MatchStudy& study,
 // On training views alone, so that what is left out here is no choice by the views that judge.
 void Choosing::glance() {
     MatchStudy study = study_.match;
-    study.test = {study.train.back()};
+    study.test = study.train;
     study.train.resize(1);
     study.training = study.image = glanceSize;
     study.rays = std::min(study.rays, glanceRays);
@@ -146,6 +149,9 @@ void Choosing::glance() {
         Candidate candidate;
         candidate.configuration = {technique, matched.fitted};
         candidate.glanceRmse = summaryOf(matched.rows, nameOf(study.truth), "matched").rmse;
+        for (const MatchRow& row : matched.rows)
+            if (!row.train && row.stage == "matched" && row.reference == nameOf(study.truth))
+                glances_[technique.name].push_back(row.error.rmse);
         candidate.rmse = candidate.milliseconds = candidate.trainingRmse = nan;
         if (budget_.rmse && candidate.glanceRmse > farOver(*budget_.rmse))
             candidate.verdict = "RMSE far over the limit at a glance";
@@ -171,14 +177,19 @@ void Choosing::timeAll() {
     }
 }
 
-// By one that is clearly better and clearly cheaper, or, asked for the best within a time, clearly
-// within it.
+// By one that is clearly better, and on every view, and clearly cheaper or, asked for the best
+// within a time, clearly within it.
 void Choosing::dropDominated() {
+    const auto isBetter = [&](const Candidate& other, const Candidate& candidate) {
+        const std::vector<double>&a = glances_[nameOf(other)], &b = glances_[nameOf(candidate)];
+        return other.glanceRmse + rmseAlike <= candidate.glanceRmse &&
+               std::equal(a.begin(), a.end(), b.begin(), b.end(), std::less<>());
+    };
     for (Candidate& candidate : choice_.candidates)
         for (const Candidate& other : choice_.candidates) {
             const double most = budget_.best ? *budget_.milliseconds : candidate.glanceMilliseconds;
             if (candidate.verdict.empty() && other.glanceMilliseconds * glanceFactor <= most &&
-                other.glanceRmse + rmseAlike <= candidate.glanceRmse)
+                isBetter(other, candidate))
                 candidate.verdict =
                     fmt::format("{} ({:.3g} ms, RMSE {:.3f}) is preferable at a glance",
                                 nameOf(other), other.glanceMilliseconds, other.glanceRmse);

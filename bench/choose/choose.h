@@ -13,13 +13,13 @@ namespace obscura {
 
 // How far a candidate came. Each rung costs more and leaves fewer.
 enum class Rung {
-    glance,   // fitted on one small training view, seen on another, timed a little as matched there
+    glance,   // fitted on one small training view, seen on all of them, timed a little as matched
     held_out, // fitted on all training views, measured at full size on held-out ones, timed at
               // length
     chosen
 };
 
-// A glance sees one small view: what is over a limit by less than this may still meet it.
+// A glance sees a few small views: what is over a limit by less than this may still meet it.
 constexpr double glanceFactor = 1.5, glanceMargin = 0.02;
 inline double farOver(double rmse) { return rmse * glanceFactor + glanceMargin; }
 

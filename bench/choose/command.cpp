@@ -25,7 +25,7 @@ struct ChooseOptions {
     StudyOptions study;
     std::string scene;
     double radius = 0; // 0: suggested
-    int cameras = 8;
+    int cameras = 12;
     std::vector<std::string> limits, failures;
     std::string within; // --budget
     fs::path people;    // folder of a study's results; may be empty

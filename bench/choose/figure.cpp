@@ -266,7 +266,7 @@ std::string restScript(std::size_t rest, const Layout& layout) {
                ? ""
                : format("set label 300 {} at screen 0.012, screen {:.4f} left font ',7' tc rgb "
                         "'{}'\n",
-                        gnuplotText(format("{} more were measured: choice.csv", rest)),
+                        gnuplotText(format("{} more in choice.csv", rest)),
                         layout.rowsLow - 0.25 / layout.height, grey);
 }
 
@@ -294,8 +294,18 @@ GlanceFrame glanceFrameOf(const Budget& budget, const Choice& choice) {
     return {timeAxis(std::move(times)), top * 1.08};
 }
 
+// Whether a number there would cover a point.
+bool covers(const NumberPlace& place, const Choice& choice, const GlanceFrame& frame) {
+    return std::any_of(
+        choice.candidates.begin(), choice.candidates.end(), [&](const Candidate& candidate) {
+            const Spot spot = frame.spot(candidate);
+            return std::abs(spot.x - place.x) < 9 && std::abs(spot.y - (place.y - 4)) < 8;
+        });
+}
+
 // The numbers of the rows beside the points, where there is room; the chosen one's first.
-std::string numbersScript(const std::vector<const Candidate*>& rows, const GlanceFrame& frame) {
+std::string numbersScript(const Choice& choice, const std::vector<const Candidate*>& rows,
+                          const GlanceFrame& frame) {
     std::vector<std::size_t> order(rows.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
     std::stable_partition(order.begin(), order.end(),
@@ -306,9 +316,10 @@ std::string numbersScript(const std::vector<const Candidate*>& rows, const Glanc
     const auto places = numberPlaces(spots, 0, GlanceFrame::up);
     std::string script;
     for (std::size_t k = 0; k < order.size(); ++k) {
-        if (!places[k] || places[k]->far)
-            continue;
         const Candidate& candidate = *rows[order[k]];
+        if (!places[k] || (candidate.rung != Rung::chosen &&
+                           (places[k]->far || covers(*places[k], choice, frame))))
+            continue;
         const std::string number = std::to_string(order[k] + 1);
         script += format("set label {} {} at graph {:.4f}, graph {:.4f} center font ',7' tc rgb "
                          "'{}'\n",
@@ -369,8 +380,8 @@ std::string glanceScript(const Budget& budget, const Choice& choice,
                            "the left edge)"),
                gnuplotText("RMSE"),
                gnuplotBold("All candidates at a glance: fitted on one small training view, seen on "
-                           "another")) +
-        numbersScript(rows, frame) +
+                           "all of them")) +
+        numbersScript(choice, rows, frame) +
         format("set key at screen 0.865, screen {} left top samplen 0.3 font ',7.5'\n",
                layout.glanceTop) +
         farOverScript(budget);

@@ -21,22 +21,21 @@ const std::vector<std::string> columns = {"scene",         "level",      "techni
                                           "milliseconds",  "jod_people", "low",       "high",
                                           "jod_predicted", "rmse"};
 
-// An empty cell is NaN.
-double numberIn(const CsvRecord& record, std::size_t column, const std::string& file) {
+double numberIn(const CsvRecord& record, std::size_t column, const std::string& file,
+                double unknown) {
     const std::string& cell = record.cells[column];
-    double number = std::numeric_limits<double>::quiet_NaN();
+    double number = unknown;
     if (!cell.empty() && !readCell(cell, number))
         throw Error({file, record.line, 0, columns[column]},
                     fmt::format("expected a number, or nothing, found \"{}\"", cell));
     return number;
 }
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                 endless = std::numeric_limits<double>::infinity();
+
 // What is known of one scene and level, in words, and the JOD that suffice there.
 PeopleLimit limitIn(const std::string& where, std::vector<PeopleRung> rungs, double margin) {
-    double truth = 0; // what is predicted of the ray-traced image, to which the others are compared
-    for (const PeopleRung& rung : rungs)
-        if (rung.technique == "ray_traced" && !std::isnan(rung.predicted))
-            truth = rung.predicted;
     std::erase_if(rungs, [](const PeopleRung& rung) {
         return rung.technique == "ray_traced" || std::isnan(rung.milliseconds + rung.predicted);
     });
@@ -50,13 +49,13 @@ PeopleLimit limitIn(const std::string& where, std::vector<PeopleRung> rungs, dou
                                 "worse than the ray-traced image by more than {:g} JOD in {}, "
                                 "found none; allow more by --margin",
                                 margin, where));
-    const double jod = 10 + found->predicted - truth;
+    const double jod = found->predicted;
     std::string words = fmt::format(
         "  {}: {} ({:.3g} ms) is the cheapest that people do not place more than {:g} JOD below "
         "the ray-traced image: {:+.2f}, 95 % interval {:+.2f} to {:+.2f}; predicted are {:.2f}\n",
         where, found->name, found->milliseconds, margin, found->people, found->low, found->high,
         jod);
-    if (found->low < -margin)
+    if (!(found->low >= -margin))
         words += fmt::format(
             "    They may place it {:.2f} below, though: more people would tell.\n", -found->low);
     return {jod, words};
@@ -79,9 +78,11 @@ std::vector<PeopleRung> readPeople(const fs::path& folder) {
             continue;
         if (const std::string fault = faultOf(record, columns.size()); !fault.empty())
             throw Error({file, record.line, 0, {}}, fault);
-        const auto number = [&](std::size_t column) { return numberIn(record, column, file); };
+        const auto number = [&](std::size_t column, double unknown = nan) {
+            return numberIn(record, column, file, unknown);
+        };
         rungs.push_back({record.cells[0], record.cells[1], record.cells[2], record.cells[3],
-                         number(4), number(5), number(6), number(7), number(8)});
+                         number(4), number(5), number(6, -endless), number(7, endless), number(8)});
     }
     if (rungs.empty())
         throw Error({file, 0, 0, {}}, "expected rungs of a ladder study, found none");

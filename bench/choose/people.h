@@ -9,13 +9,13 @@ namespace obscura {
 // A limit on predicted JOD from people's answers: `obscura-bench choose --people FOLDER`.
 
 // One technique in one scene and level of a ladder study, as obscura-analysis writes it into
-// ladder.csv. JOD are relative to `ray_traced`, whose own row has 0.
+// ladder.csv.
 struct PeopleRung {
     std::string scene, level, technique, name;
     double milliseconds = 0;              // NaN: not measured
-    double people = 0, low = 0, high = 0; // JOD of people, and its 95 % interval; below 0: worse
-    double predicted = 0;                 // JOD, of which the row of ray_traced has the truth's;
-                                          // NaN: not measured
+    double people = 0, low = 0, high = 0; // JOD of people, relative to `ray_traced`, and its 95 %
+                                          // interval, perhaps endless; below 0: worse
+    double predicted = 0;                 // JOD: 10 of what does not differ; NaN: not measured
 };
 
 // An Error names file, line and column.
@@ -25,7 +25,7 @@ std::vector<PeopleRung> readPeople(const std::filesystem::path& folder);
 // see it as worse than the ray-traced image by more. Its predicted JOD is enough there; the limit
 // is the highest of these, and so enough in each.
 struct PeopleLimit {
-    double jod = 0;    // 10: the truth's own, less is worse
+    double jod = 0;
     std::string words; // a line for each scene and level
 };
 PeopleLimit limitOf(const std::vector<PeopleRung>& rungs, double margin);

@@ -16,9 +16,23 @@ namespace {
 
 constexpr int width = 48, height = 27, rays = 16;
 constexpr double share = 1.0 / 16;            // of the picture's height
-constexpr double start = 1.0 / 100;           // of the scene's size, to find cameras by
 constexpr double hardly = 0.05, mostly = 0.5; // occluded, on average
 constexpr int mostSteps = 4;
+
+// Cameras that see nothing nearer than a good part of the scene's size, for the first look at it; a
+// smaller part where there are none.
+std::vector<View> firstCameras(View view, const Folders& folders, int cameras, std::uint64_t seed,
+                               double size) {
+    for (const int part : {8, 16}) {
+        view.radius = size / part;
+        try {
+            return viewpoints(view, folders, cameras, seed);
+        } catch (const Error&) {
+        }
+    }
+    view.radius = size / 32;
+    return viewpoints(view, folders, cameras, seed);
+}
 
 // Over the pixels of all cameras that show a surface.
 double meanOcclusion(const std::vector<Probe>& probes, const RayTracer& tracer, double radius) {
@@ -54,12 +68,12 @@ SuggestedRadius suggestedRadius(const View& like, const Folders& folders, int ca
     const Subject subject(scene);
     const RayTracer tracer(scene);
     const Bounds bounds = scene.bounds();
-    View view = like;
-    view.radius = start * static_cast<double>(glm::length(bounds.high - bounds.low));
     std::vector<Probe> probes;
     std::vector<double> depths;
     double fovDegrees = 0;
-    for (const View& found : viewpoints(view, folders, cameras, seed)) {
+    for (const View& found :
+         firstCameras(like, folders, cameras, seed,
+                      static_cast<double>(glm::length(bounds.high - bounds.low)))) {
         fovDegrees = found.camera.fovDegrees;
         probes.emplace_back(subject, found.camera, width, height, Normals::smooth, seed);
         const Surfaces& surfaces = probes.back().surfaces();

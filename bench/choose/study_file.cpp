@@ -71,6 +71,15 @@ std::string tableOf(const Level& light, const std::string& folder) {
                          light.occludeDirect);
 }
 
+std::string tableOf(const Display& display) {
+    if (!display.name.empty())
+        return format("\n[display]\nname = {}\n", quoted(display.name));
+    std::string text = "\n[display]\n";
+    for (const auto& [key, value] : numbersOf(display))
+        text += format("{} = {}\n", key, value);
+    return text;
+}
+
 std::string tableOf(const TechniqueSetting& technique) {
     std::string text = format("\n[techniques.{}]\ntechnique = {}\n", quoted(technique.name),
                               quoted(technique.technique));
@@ -101,7 +110,7 @@ std::string studyText(const SweepStudy& study, const std::string& folder) {
         listOf(match.train, match), listOf(match.test, match), size(study.sizes.front()),
         study.frames, study.seconds, match.training.width, match.training.height);
     if (study.light)
-        text += tableOf(*study.light, folder);
+        text += tableOf(*study.light, folder) + tableOf(study.display);
     for (const std::vector<View>* views : {&match.train, &match.test})
         for (const View& view : *views)
             text += tableOf(view, match);

@@ -261,7 +261,7 @@ std::string introduction(const Sweep& sweep) {
                             machine.method, machine.date));
     if (!machine.display.empty())
         html += element("p", format("JOD (just-objectionable differences) are predicted, by "
-                                    "ColorVideoVDP, for a person before a screen of {}. 10 is no "
+                                    "ColorVideoVDP, for a person before this screen: {}. 10 is no "
                                     "difference from the lit truth; at 9, 75 of 100 would prefer "
                                     "the truth. Nobody has looked.",
                                     machine.display));

@@ -573,6 +573,26 @@ TEST_F(Generate, TellsWhatASceneUsesAndWeDoNotShow) {
         testing::Contains("scene \"triangle\": material \"m\" is translucent; it is drawn opaque"));
 }
 
+// What is drawn and what rays meet.
+TEST_F(Generate, AGroundOccludesWhatStandsOnIt) {
+    const auto grounded = [](const std::string& ground) {
+        std::string text = tracedText();
+        text.replace(text.find("radius = 0.3"), 0, "ground = { " + ground + " }\n");
+        return text;
+    };
+    const std::string near = grounded("wall = -0.1");
+    const GenerateResult result = run(near);
+    for (const ImageRecord& image : result.manifest.conditions[0].images)
+        EXPECT_GT(image.meanOcclusion, 0.03) << image.name;
+    EXPECT_THAT(result.warnings,
+                testing::Not(testing::Contains(testing::HasSubstr("next to nothing occludes"))));
+    EXPECT_EQ(verified(near), 0);
+    EXPECT_EQ(run(grounded("wall = -0.1, colour = [0.5, 0.5, 0.4]")).kept, 0);
+    EXPECT_THAT(test::errorOf([&] { run(grounded("wall = 0.1")); }),
+                testing::AllOf(testing::StartsWith("tiny.toml:4:1: scenes.triangle: ground.wall"),
+                               testing::HasSubstr("begins at z = 0, found z = 0.1")));
+}
+
 // A triangle alone: nothing occludes it, and a technique that knows so is as open as none.
 TEST_F(Generate, WarnsOfConditionsThatAreWorthNothing) {
     using testing::AllOf, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;

@@ -28,6 +28,10 @@ Sweep busySweep() {
     });
     for (std::size_t i = 0; i < sweep.rows.size(); i += 3)
         sweep.rows[i].toStarcraft *= i % 2 ? 1 / 1.5 : 1.5;
+    for (std::size_t i = 0; i < 10; ++i) { // crytek takes exactly what alchemy takes
+        sweep.rows[10 + i].total = sweep.rows[i].total;
+        sweep.rows[10 + i].toStarcraft = sweep.rows[i].toStarcraft;
+    }
     return sweep;
 }
 

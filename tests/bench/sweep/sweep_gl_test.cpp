@@ -168,7 +168,7 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
         EXPECT_NE(choice.candidates[i].verdict, "") << nameOf(choice, i);
 
     // What is written is what a study takes by include, as it was matched.
-    writeChoice(folder_ / "choice", study_, paid, choice);
+    writeChoice(folder_ / "choice", study_, ".", paid, choice);
     const std::size_t techniques = text.find("[techniques]");
     writeFile(folder_ / "choice" / "study.toml",
               "include = [\"choice.toml\"]\n" + text.substr(0, techniques));
@@ -177,7 +177,7 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     const Configuration& wanted = choice.candidates[*choice.chosen].configuration;
     EXPECT_EQ(settingsOf(included.techniques[0], 0.2).named(),
               settingsAt(wanted, 0.2, true).named());
-    writeChoice(folder_ / "choice", study_, impossible, choiceOf(impossible));
+    writeChoice(folder_ / "choice", study_, ".", impossible, choiceOf(impossible));
     EXPECT_FALSE(fs::exists(folder_ / "choice" / "choice.toml")); // no stale answer
 }
 
