@@ -226,3 +226,12 @@ fault front-of-equals bench/sweep/pareto.cpp \
 fault caution-silent analysis/findings.cpp \
     's#if \(!caution\.empty\(\)\)#if (caution.size() > 100000)#' \
     analysis_program_test 'Program.Cautions*'
+fault look-unscaled experiment/eyes.cpp \
+    's|lookDeviation \* random_|random_|' \
+    experiment_test 'Eyes.*'
+fault worse-for-better protocols/reader/stimuli.cpp \
+    's|\) > right;|) < right;|' \
+    experiment_test 'Eyes.*'
+fault unsure-votes analysis/plan/simulation.cpp \
+    's|limitOf\(here\.b \+ here\.unsure\)|limitOf(here.b)|' \
+    analysis_test 'Plan.WhoIsNotSureHasNoVote'
