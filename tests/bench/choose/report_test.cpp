@@ -47,7 +47,7 @@ Candidate candidate(const std::string& name, double milliseconds, const std::vec
     made.configuration.setting.technique = "gtao";
     made.glanceMilliseconds = milliseconds;
     made.glanceRmse = 0.1;
-    made.milliseconds = made.rmse = made.trainingRmse = std::nan("");
+    made.milliseconds = made.rmse = made.training = std::nan("");
     if (rmse.empty())
         return made;
     made.rung = Rung::held_out;
