@@ -116,6 +116,13 @@ void declare(CLI::App& app, Arguments& arguments) {
                    "Seed of the simulated participants; the protocol's when not given")
         ->type_name("S")
         ->needs(simulate);
+    app.add_option("--observer", arguments.observer,
+                   "By what they choose: preference (the protocol's simulatedPreference), or jod "
+                   "(each image's predicted JOD in the stimuli's manifest)")
+        ->type_name("WHAT")
+        ->check(CLI::IsMember({"preference", "jod"}))
+        ->capture_default_str()
+        ->needs(simulate);
     app.add_flag("--visual", arguments.visual,
                  "Run them through the real window, full screen, by keys that they press")
         ->needs(simulate);

@@ -22,7 +22,8 @@ struct Arguments {
     std::string windowSize; // with --windowed; "" for the usual one
     bool windowed = false, rehearse = false, allowUntimed = false, listMonitors = false;
     bool simulate = false, visual = false, resume = false;
-    int simulated = 0; // how many; 0 as the protocol plans
+    int simulated = 0;                   // how many; 0 as the protocol plans
+    std::string observer = "preference"; // or "jod"
     std::optional<std::uint64_t> seed;
     std::filesystem::path preview;
     bool check = false;

@@ -23,7 +23,7 @@ constexpr int patchShare = 12; // of the screen's height
 
 } // namespace
 
-Display::Display(const DisplayOptions& options, const Curtain& curtain)
+StimulusDisplay::StimulusDisplay(const DisplayOptions& options, const Curtain& curtain)
     : receiver_(options.trigger), trigger_(receiver_.empty() ? nullptr : openTrigger(receiver_)),
       priority_(askForPriority()), window_(options.window), grey_(options.grey),
       photodiode_(options.photodiode), windowed_(options.window.windowed.has_value()) {
@@ -38,7 +38,7 @@ Display::Display(const DisplayOptions& options, const Curtain& curtain)
 }
 
 // By the best clock that can be believed.
-void Display::measure(const gl::Picture& curtain) {
+void StimulusDisplay::measure(const gl::Picture& curtain) {
     if (window_.countsBlanks() && measureBy(Stamp::blanks, curtain))
         return;
     if (measureBy(Stamp::finish, curtain))
@@ -47,7 +47,7 @@ void Display::measure(const gl::Picture& curtain) {
     ticks_.emplace(refresh_.hz);
 }
 
-bool Display::measureBy(Stamp stamp, const gl::Picture& curtain) {
+bool StimulusDisplay::measureBy(Stamp stamp, const gl::Picture& curtain) {
     window_.stampBy(stamp);
     std::vector<gl::Onset> onsets;
     std::vector<double> intervals, now;
@@ -70,7 +70,7 @@ bool Display::measureBy(Stamp stamp, const gl::Picture& curtain) {
     return true;
 }
 
-void Display::check(const gl::Picture& curtain) {
+void StimulusDisplay::check(const gl::Picture& curtain) {
     check_.compositor = window_.composited();
     check_.contentScale = window_.contentScale();
     check_.colourBits = window_.colourBits();
@@ -83,7 +83,7 @@ void Display::check(const gl::Picture& curtain) {
 }
 
 // How long the first swaps take after a pause that began, and so ends, just after a blank.
-std::vector<double> Display::burst(const gl::Picture& curtain) {
+std::vector<double> StimulusDisplay::burst(const gl::Picture& curtain) {
     const bool blanks = refresh_.source == "oml";
     window_.stampBy(Stamp::finish); // blanks would be waited for
     show(&curtain);
@@ -99,12 +99,12 @@ std::vector<double> Display::burst(const gl::Picture& curtain) {
     return intervals;
 }
 
-std::string Display::inWords() const {
+std::string StimulusDisplay::inWords() const {
     return fmt::format("{}; timestamps: {}; scheduling: {}; memory: {}", obscura::inWords(check_),
                        refresh_.source, priority_.scheduling, priority_.memory);
 }
 
-void Display::describe(nlohmann::ordered_json& sidecar) const {
+void StimulusDisplay::describe(nlohmann::ordered_json& sidecar) const {
     const gl::Monitor& monitor = window_.monitor();
     const gl::Driver driver = window_.driver();
     sidecar["display"] = {
@@ -126,24 +126,24 @@ void Display::describe(nlohmann::ordered_json& sidecar) const {
     describeMarks(sidecar);
 }
 
-void Display::mark(double onset, int trial, int phase, std::string_view name) {
+void StimulusDisplay::mark(double onset, int trial, int phase, std::string_view name) {
     if (trigger_)
         trigger_->send({onset, window_.now() - onset, trial, phase, name});
 }
 
-void Display::countMarks() {
+void StimulusDisplay::countMarks() {
     if (trigger_)
         trigger_->restart();
 }
 
-void Display::describeMarks(nlohmann::ordered_json& sidecar) const {
+void StimulusDisplay::describeMarks(nlohmann::ordered_json& sidecar) const {
     if (!trigger_)
         return;
     sidecar["trigger"] = {{"receiver", receiver_}};
     sidecar["trigger"].update(trigger_->counts());
 }
 
-void Display::warmUp(const gl::Picture& picture) {
+void StimulusDisplay::warmUp(const gl::Picture& picture) {
     if (picture.width() > window_.width() || picture.height() > window_.height())
         throw Error(fmt::format("images of {}x{} pixels do not fit on a screen of {}x{}, and are "
                                 "never scaled; choose a larger monitor (--monitor), a larger "
@@ -155,14 +155,14 @@ void Display::warmUp(const gl::Picture& picture) {
     window_.check();
 }
 
-double Display::show(const gl::Picture* picture, bool stimulus) {
+double StimulusDisplay::show(const gl::Picture* picture, bool stimulus) {
     if (!picture)
         return show({}, grey_, stimulus);
     return show(std::array{centred(*picture)}, grey_, stimulus);
 }
 
 // With a clock in place of blanks, all is drawn before the tick, and swapped at it.
-double Display::show(std::span<const Placed> pictures, int grey, bool stimulus) {
+double StimulusDisplay::show(std::span<const Placed> pictures, int grey, bool stimulus) {
     draw(pictures, grey, stimulus);
     if (ticks_) {
         window_.finish();
@@ -171,7 +171,7 @@ double Display::show(std::span<const Placed> pictures, int grey, bool stimulus) 
     return window_.swap().time;
 }
 
-void Display::draw(std::span<const Placed> pictures, int grey, bool stimulus) {
+void StimulusDisplay::draw(std::span<const Placed> pictures, int grey, bool stimulus) {
     window_.clear(grey);
     for (const Placed& placed : pictures)
         window_.draw(*placed.picture, placed.x, placed.y);
@@ -179,7 +179,7 @@ void Display::draw(std::span<const Placed> pictures, int grey, bool stimulus) {
         window_.fillCorner(window_.height() / patchShare, stimulus ? 255 : 0);
 }
 
-Placed Display::centred(const gl::Picture& picture) const {
+Placed StimulusDisplay::centred(const gl::Picture& picture) const {
     return {&picture, (window_.width() - picture.width()) / 2,
             (window_.height() - picture.height()) / 2};
 }

@@ -41,9 +41,9 @@ struct DisplayOptions {
 // came on. When it is made, it is checked with `curtain` on view: how fast it is, and whether that
 // can be relied on. Where swaps follow no vertical blank (Xvfb, a driver told not to wait) it is
 // paced by the clock at 60 Hz, and refresh() says so.
-class Display {
+class StimulusDisplay {
   public:
-    Display(const DisplayOptions& options, const Curtain& curtain);
+    StimulusDisplay(const DisplayOptions& options, const Curtain& curtain);
 
     const Refresh& refresh() const { return refresh_; }
     // Why no data should be collected on it, and what to do; "" if they may.

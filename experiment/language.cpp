@@ -21,7 +21,7 @@ namespace {
 // The page on the screen.
 class Choice {
   public:
-    Choice(Display& display, const Protocol& protocol, const std::string& warning)
+    Choice(StimulusDisplay& display, const Protocol& protocol, const std::string& warning)
         : display_(display), protocol_(protocol), warning_(warning) {
         show();
         display_.window().poll(); // what was pressed before it was there
@@ -89,7 +89,7 @@ class Choice {
         return static_cast<std::size_t>(found - boxes.begin());
     }
 
-    Display& display_;
+    StimulusDisplay& display_;
     const Protocol& protocol_;
     const std::string& warning_;
     DrawnPage drawn_;
@@ -124,7 +124,7 @@ std::string languageNamed(const Protocol& protocol, const std::string& tag) {
                                           : fmt::format("it has {}", fmt::join(known, ", "))));
 }
 
-bool settleLanguage(Study& study, Display& display, const std::string& warning,
+bool settleLanguage(Study& study, StimulusDisplay& display, const std::string& warning,
                     const std::filesystem::path& sidecar) {
     const Protocol& protocol = study.protocol;
     if (!study.language.empty() || protocol.translations.empty())

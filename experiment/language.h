@@ -16,7 +16,7 @@ std::string languageNamed(const Protocol& protocol, const std::string& tag);
 // session with this sidecar ("" or none there: no such session); or else the participant chooses,
 // by number, arrows and Enter, or mouse. `warning` stands above the page. False when Escape was
 // pressed.
-bool settleLanguage(Study& study, Display& display, const std::string& warning,
+bool settleLanguage(Study& study, StimulusDisplay& display, const std::string& warning,
                     const std::filesystem::path& sidecar);
 
 } // namespace obscura

@@ -83,12 +83,13 @@ int simulate(const Arguments& arguments, const Study& study) {
     const DataFolder folder(arguments.data, protocol);
     checkFolder(folder, study);
     const int count = arguments.simulated ? arguments.simulated : protocol.ordering.participants;
-    std::optional<Display> display;
+    std::optional<StimulusDisplay> display;
     std::optional<Presenter> presenter;
     if (arguments.visual) {
         display.emplace(displayOptions(arguments, study), curtain(study));
         presenter.emplace(*display, study, "Simulated participant: answers do not count");
     }
+    const Manifest* const seen = arguments.observer == "jod" ? &study.manifest : nullptr;
     Progress progress("simulated participants", count);
     for (int i = 1; i <= count; ++i) {
         const SessionId session{fmt::format("S{:02}", i), arguments.session, true};
@@ -96,10 +97,10 @@ int simulate(const Arguments& arguments, const Study& study) {
             throw Error(problem + "; or another data folder: --data DIR");
         const std::uint64_t seed = arguments.seed.value_or(protocol.seed);
         if (presenter) {
-            VisualObserver observer(*presenter, protocol, seed, session.participant);
+            VisualObserver observer(*presenter, protocol, seed, session.participant, seen);
             runSession(study, folder, session, observer);
         } else {
-            SimulatedObserver observer(protocol, seed, session.participant);
+            SimulatedObserver observer(protocol, seed, session.participant, seen);
             runSession(study, folder, session, observer);
         }
         progress.update(i, session.participant);
@@ -109,7 +110,7 @@ int simulate(const Arguments& arguments, const Study& study) {
 
 // Which text stands above every page, and on stderr: the session is no measurement; or none. An
 // Error on a display that no data should be collected on.
-std::string Texts::*warning(const Arguments& arguments, const Display& display) {
+std::string Texts::*warning(const Arguments& arguments, const StimulusDisplay& display) {
     fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
     const Refresh& refresh = display.refresh();
     const std::string objection = display.objection();
@@ -208,7 +209,7 @@ Viewing viewingOn(const Arguments& arguments, const Study& study, const gl::Moni
 // Nothing when the experimenter wants another monitor.
 std::optional<int> presentOn(const Arguments& arguments, Study& study, const DataFolder& folder,
                              int monitors) {
-    Display display(displayOptions(arguments, study), curtain(study));
+    StimulusDisplay display(displayOptions(arguments, study), curtain(study));
     const Viewing viewing = viewingOn(arguments, study, display.monitor());
     std::string Texts::*const above = warning(arguments, display);
     const bool knows = arguments.resume && !arguments.participant.empty();

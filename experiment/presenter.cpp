@@ -32,7 +32,7 @@ Curtain curtain(const Study& study) {
     };
 }
 
-Presenter::Presenter(Display& display, const Study& study, std::string warning)
+Presenter::Presenter(StimulusDisplay& display, const Study& study, std::string warning)
     : display_(display), study_(study), texts_(study.texts()),
       screens_(study.protocol, study.texts(), display.window().width(), display.window().height(),
                std::move(warning)),

@@ -39,7 +39,7 @@ class Presenter : public Observer {
   public:
     // `warning` stands above every page of text; "" for none. Loads the study, showing how far it
     // is.
-    Presenter(Display& display, const Study& study, std::string warning);
+    Presenter(StimulusDisplay& display, const Study& study, std::string warning);
 
     // Asks for the participant's id until `judge` has no objection, and, of a session that broke
     // off, until the experimenter confirms that it goes on; nothing when Escape was pressed.
@@ -117,7 +117,7 @@ class Presenter : public Observer {
     Sheet startSheet(const StartFacts& start, const std::string& typed,
                      const std::string& problem) const;
 
-    Display& display_;
+    StimulusDisplay& display_;
     const Study& study_;
     const Texts& texts_;
     Screens screens_;

@@ -111,7 +111,7 @@ class Preview {
         return at->second;
     }
 
-    // As Display::show() has it: the page or grey, and the images upon it.
+    // As StimulusDisplay::show() has it: the page or grey, and the images upon it.
     Image8 composed(const Screenful& screen) {
         Image8 all{screens_.width(), screens_.height(), 3, {}};
         if (screen.drawn)

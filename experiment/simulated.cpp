@@ -29,9 +29,12 @@ int admitted(const Question& question) {
 } // namespace
 
 SimulatedParticipant::SimulatedParticipant(const Protocol& protocol, std::uint64_t seed,
-                                           const std::string& name)
+                                           const std::string& name, const Manifest* seen)
     : protocol_(protocol), phases_(phasesOf(protocol.trial)), seed_(seed),
-      random_(seed, "observer/" + name), pages_(seed, "pages/" + name) {}
+      random_(seed, "observer/" + name), pages_(seed, "pages/" + name) {
+    if (seen)
+        eyes_.emplace(protocol, *seen, Random(seed, "eyes/" + name));
+}
 
 void SimulatedParticipant::describe(nlohmann::ordered_json& sidecar) const {
     const Simulation& model = protocol_.simulation;
@@ -39,10 +42,13 @@ void SimulatedParticipant::describe(nlohmann::ordered_json& sidecar) const {
         return nlohmann::ordered_json{
             {"mean_s", time.mean}, {"deviation_s", time.deviation}, {"tail_s", time.tail}};
     };
-    sidecar["model"] = {{"seed", seed_},
+    sidecar["model"] = {{"observer", eyes_ ? "jod" : "preference"},
+                        {"seed", seed_},
                         {"position_bias", model.positionBias},
                         {"view", spell(model.view)},
                         {"decision", spell(model.decision)}};
+    if (eyes_)
+        eyes_->describe(sidecar["model"]);
 }
 
 void SimulatedParticipant::prepare(const Upcoming& trial) {
@@ -50,7 +56,10 @@ void SimulatedParticipant::prepare(const Upcoming& trial) {
         protocol_.conditions.at(static_cast<std::size_t>(trial.planned.condition));
     const double preferSecond =
         trial.order.front() == "b" ? 1 - condition.simulated.chooseB : condition.simulated.chooseB;
-    chooseSecond_ = std::clamp(preferSecond + protocol_.simulation.positionBias, 0.0, 1.0);
+    chooseSecond_ =
+        eyes_ ? 0.5 : std::clamp(preferSecond + protocol_.simulation.positionBias, 0.0, 1.0);
+    if (eyes_)
+        eyes_->look(trial);
     deed_.reset();
     page_ = nullptr;
 }
@@ -103,14 +112,20 @@ Deed SimulatedParticipant::decide(const TrialMachine& trial, const Phase& phase)
             {}};
 }
 
-// Which image of a pair looks better is the model's; all other questions are answered at random: a
-// number in the middle of the range, or a letter, where they are typed; but never so that the
-// session ends.
+// Questions about images are answered by the eyes, or, without them, which of a pair looks better
+// by the model; all others at random: a number in the middle of the range, or a letter, where they
+// are typed; but never so that the session ends.
 Deed SimulatedParticipant::answer(const Form& form) {
     Deed deed{draw(protocol_.simulation.decision), gl::Key::enter, {}}; // to the next, or the end
     if (form.answered(static_cast<std::size_t>(form.focus())))
         return deed;
-    const Question& question = form.questions()[static_cast<std::size_t>(form.focus())];
+    const auto focus = static_cast<std::size_t>(form.focus());
+    const Question& question = form.questions()[focus];
+    if (eyes_ && !page_)
+        if (const auto seen = eyes_->answer(question, form.entries()[focus].ranks)) {
+            deed.key = keyOf(question, *seen);
+            return deed;
+        }
     switch (question.kind) {
     case Question::Kind::choice:
         if (question.images && question.options.size() == 2 && question.unsure.empty()) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/random.h"
+#include "experiment/eyes.h"
 #include "experiment/observer.h"
 #include "experiment/trial.h"
 #include "gl/input.h"
@@ -24,11 +25,14 @@ struct Deed {
 
 // The model, for dry runs and power studies; docs/measurement.md has it in words. The probability
 // of choosing the second image is that of preferring the member shown second (the protocol's
-// choose_b, or one minus it), plus the position bias, within [0, 1]. Looking and deciding take
+// choose_b, or one minus it), plus the position bias, within [0, 1]; or, with stimuli to look at,
+// the images are answered by their predicted JOD (Eyes). Looking and deciding take
 // ex-Gaussian times. The same seed and participant always do the same, whatever the clock.
 class SimulatedParticipant {
   public:
-    SimulatedParticipant(const Protocol& protocol, std::uint64_t seed, const std::string& name);
+    // `seen`: the stimuli; null for one without eyes.
+    SimulatedParticipant(const Protocol& protocol, std::uint64_t seed, const std::string& name,
+                         const Manifest* seen = nullptr);
 
     void describe(nlohmann::ordered_json& sidecar) const;
     void prepare(const Upcoming& trial);
@@ -55,6 +59,7 @@ class SimulatedParticipant {
     const std::vector<Phase> phases_;
     std::uint64_t seed_;
     Random random_, pages_; // pages outside a trial leave what it does in trials as it is
+    std::optional<Eyes> eyes_;
     double chooseSecond_ = 0.5;
     const Phase* page_ = nullptr; // outside trials
     std::optional<Deed> deed_;
@@ -64,8 +69,9 @@ class SimulatedParticipant {
 // With a clock of its own that ticks 60 times a second, and nothing to look at.
 class SimulatedObserver : public Observer {
   public:
-    SimulatedObserver(const Protocol& protocol, std::uint64_t seed, const std::string& participant)
-        : participant_(protocol, seed, participant) {}
+    SimulatedObserver(const Protocol& protocol, std::uint64_t seed, const std::string& participant,
+                      const Manifest* seen = nullptr)
+        : participant_(protocol, seed, participant, seen) {}
 
     Refresh refresh() const override;
     void describe(nlohmann::ordered_json& sidecar) const override {

@@ -64,7 +64,7 @@ std::string monitorOf(const gl::Monitor& monitor, int number, int monitors) {
                        monitor.refreshHz > 0 ? fmt::format(" at {} Hz", monitor.refreshHz) : "");
 }
 
-std::string timingOf(const Display& display) {
+std::string timingOf(const StimulusDisplay& display) {
     const Refresh& refresh = display.refresh();
     if (refresh.source == "none")
         return fmt::format("not to be relied on: {}", refresh.doubt);
@@ -87,7 +87,8 @@ double expectedSeconds(const Protocol& protocol) {
 }
 
 StartFacts startFacts(const Study& study, const DataFolder& folder, bool rehearsal,
-                      const Display& display, const Viewing& viewing, int monitor, int monitors) {
+                      const StimulusDisplay& display, const Viewing& viewing, int monitor,
+                      int monitors) {
     const Protocol& protocol = study.protocol;
     const double minutes = std::ceil(expectedSeconds(protocol) / 60);
     StartFacts start{(rehearsal ? "Rehearsal: " : "") + protocol.title, {}, monitors > 1};

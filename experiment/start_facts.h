@@ -14,6 +14,7 @@ double expectedSeconds(const Protocol& protocol);
 
 // What the experimenter reads before a session; `monitor` of `monitors`, from 1.
 StartFacts startFacts(const Study& study, const DataFolder& folder, bool rehearsal,
-                      const Display& display, const Viewing& viewing, int monitor, int monitors);
+                      const StimulusDisplay& display, const Viewing& viewing, int monitor,
+                      int monitors);
 
 } // namespace obscura

@@ -3,11 +3,11 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "protocols/reader/design.h"
+#include "protocols/reader/stimuli.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <span>
 #include <utility>
 
@@ -16,30 +16,6 @@ namespace obscura {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string remedy(const fs::path& protocol, const fs::path& stimuli) {
-    return fmt::format("make them: obscura-stimuli {} --out {}", protocol.string(),
-                       stimuli.string());
-}
-
-void checkBelongTogether(const Protocol& protocol, const Manifest& manifest) {
-    const std::string place = (manifest.folder / "manifest.json").string();
-    const bool same = manifest.stimuliSha256.empty() // written by an earlier version
-                          ? manifest.protocolSha256 == protocol.sha256
-                          : manifest.stimuliSha256 == sha256(partsOf(protocol).stimuli);
-    if (!same)
-        throw Error({place, 0, 0, {}},
-                    fmt::format("these stimuli were made from another version of {}, whose scenes, "
-                                "levels, techniques, conditions, image or seed have changed; {}",
-                                protocol.path.string(), remedy(protocol.path, manifest.folder)));
-    for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
-        if (i >= manifest.conditions.size() ||
-            manifest.conditions[i].condition != protocol.conditions[i].id)
-            throw Error({place, 0, 0, fmt::format("conditions[{}]", i)},
-                        fmt::format("expected the images of condition \"{}\"; {}",
-                                    protocol.conditions[i].id,
-                                    remedy(protocol.path, manifest.folder)));
-}
 
 // The file's bytes.
 std::string readVerified(const Manifest& manifest, const FileRecord& record) {
@@ -75,20 +51,9 @@ std::string Study::design() const {
 }
 
 Study openStudy(const fs::path& protocol, const fs::path& stimuli) {
-    if (!fs::exists(stimuli / "manifest.json"))
-        throw Error({stimuli.string(), 0, 0, {}},
-                    "expected a folder with stimuli, found no manifest.json in it; " +
-                        remedy(protocol, stimuli));
-    Study study{readProtocol(protocol), readManifest(stimuli / "manifest.json")};
-    // The manifest's order of conditions is its writer's affair; ours is the protocol's.
-    std::vector<ConditionRecord> ordered;
-    for (const Condition& condition : study.protocol.conditions)
-        for (const ConditionRecord& record : study.manifest.conditions)
-            if (record.condition == condition.id)
-                ordered.push_back(record);
-    study.manifest.conditions = std::move(ordered);
-    checkBelongTogether(study.protocol, study.manifest);
-    return study;
+    Protocol read = readProtocol(protocol);
+    Manifest manifest = readStimuli(read, stimuli);
+    return {std::move(read), std::move(manifest)};
 }
 
 Image8 loadStimulus(const Manifest& manifest, const ImageRecord& record) {

@@ -19,7 +19,8 @@ Image8 greyScreen(int width, int height) {
     return {width, height, 3, std::vector<std::uint8_t>(size, 128)};
 }
 
-void report(const TimingArguments& arguments, const TimingRun& timing, const Display& display) {
+void report(const TimingArguments& arguments, const TimingRun& timing,
+            const StimulusDisplay& display) {
     nlohmann::ordered_json json = spell(timing);
     display.describe(json);
     fmt::print("{}", arguments.json ? json.dump(2) + "\n" : inWords(timing));
@@ -32,7 +33,7 @@ void report(const TimingArguments& arguments, const TimingRun& timing, const Dis
 } // namespace
 
 int holdAndReport(const DisplayOptions& options, const TimingArguments& arguments) {
-    Display display(options, greyScreen);
+    StimulusDisplay display(options, greyScreen);
     fmt::print(stderr, "obscura-experiment: the display: {}\n", display.inWords());
     TimingRun timing;
     timing.seconds = arguments.seconds;

@@ -37,8 +37,8 @@ bool escapes(gl::Window& window) {
 }
 
 // Nothing when Escape was pressed.
-std::optional<MaskTiming> holdMask(Display& display, const TimingRun& run, const gl::Picture& after,
-                                   int number) {
+std::optional<MaskTiming> holdMask(StimulusDisplay& display, const TimingRun& run,
+                                   const gl::Picture& after, int number) {
     RefreshCount count(run.refresh.hz, run.planned);
     while (count.refreshes() < run.planned) {
         const double time = display.show(nullptr);
@@ -70,7 +70,7 @@ int TimingRun::missed() const {
     return sum;
 }
 
-void holdMasks(Display& display, int masks, TimingRun& run,
+void holdMasks(StimulusDisplay& display, int masks, TimingRun& run,
                const std::function<void(int)>& progress) {
     run.refresh = display.refresh();
     run.planned = maskRefreshes(run.seconds, run.refresh.hz);

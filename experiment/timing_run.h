@@ -31,7 +31,7 @@ struct TimingRun {
 // Shows so many grey masks, each between two images, swapping at every refresh as a trial does.
 // `progress` is told after each mask how many are done, while an image is on view. Ends early, in
 // order, by a signal or by Escape: what was measured until then is in `run`. A signal is thrown on.
-void holdMasks(Display& display, int masks, TimingRun& run,
+void holdMasks(StimulusDisplay& display, int masks, TimingRun& run,
                const std::function<void(int)>& progress);
 
 } // namespace obscura

@@ -13,8 +13,8 @@ constexpr double again = 0.1; // seconds until it looks whether the window has t
 } // namespace
 
 VisualObserver::VisualObserver(Presenter& presenter, const Protocol& protocol, std::uint64_t seed,
-                               const std::string& participant)
-    : presenter_(presenter), participant_(protocol, seed, participant),
+                               const std::string& participant, const Manifest* seen)
+    : presenter_(presenter), participant_(protocol, seed, participant, seen),
       go_(static_cast<gl::Key>(protocol.keys.go.front())) {
     presenter_.whileWaiting([this] { return attend(); });
 }

@@ -16,7 +16,7 @@ namespace obscura {
 class VisualObserver : public Observer {
   public:
     VisualObserver(Presenter& presenter, const Protocol& protocol, std::uint64_t seed,
-                   const std::string& participant);
+                   const std::string& participant, const Manifest* seen = nullptr);
     ~VisualObserver() override;
     VisualObserver(const VisualObserver&) = delete;
     VisualObserver& operator=(const VisualObserver&) = delete;

@@ -6,6 +6,7 @@
 #include <pango/pangocairo.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 
@@ -145,6 +146,28 @@ Image8 signedError(const Image& image, const Image& reference, float full) {
         const std::uint8_t fading = code(1 - std::abs(d));
         result.pixels.insert(result.pixels.end(),
                              {d > 0 ? fading : code(1), fading, d < 0 ? fading : code(1)});
+    }
+    return result;
+}
+
+Image8 magma(const Image& values, float full) {
+    constexpr std::array<std::array<float, 3>, 9> colours{{{0, 0, 4},
+                                                           {28, 16, 68},
+                                                           {79, 18, 123},
+                                                           {129, 37, 129},
+                                                           {181, 54, 122},
+                                                           {229, 80, 100},
+                                                           {251, 135, 97},
+                                                           {254, 194, 135},
+                                                           {252, 253, 191}}};
+    Image8 result{values.width, values.height, 3, {}};
+    for (const float value : values.pixels) {
+        const float at = std::clamp(value / full, 0.0F, 1.0F) * (colours.size() - 1);
+        const auto below = std::min(static_cast<std::size_t>(at), colours.size() - 2);
+        const float share = at - static_cast<float>(below);
+        for (std::size_t c = 0; c < 3; ++c)
+            result.pixels.push_back(static_cast<std::uint8_t>(std::lround(
+                colours[below][c] + share * (colours[below + 1][c] - colours[below][c]))));
     }
     return result;
 }

@@ -56,6 +56,10 @@ Image8 grey(const Image& visibility);
 // lighter; full colour from a difference of `full`.
 Image8 signedError(const Image& image, const Image& reference, float full);
 
+// Values from 0, black, to `full` and more, a pale yellow, by matplotlib's colour map "magma",
+// whose lightness rises evenly.
+Image8 magma(const Image& values, float full);
+
 // Box-filtered on code values: a thumbnail to recognise, not to measure.
 Image8 shrunk(const Image8& from, int width, int height);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "inference/jod.h"
 #include "inference/result.h"
 #include <Eigen/Core>
 
@@ -75,7 +76,6 @@ Test equalityTest(const Scale& scale);
 void checkWins(const Wins& wins);
 Eigen::MatrixXd centred(const Eigen::MatrixXd& covariance); // of values made to sum to 0
 double xLogX(double x, double y);                           // x log(y), 0 where x = 0
-constexpr double jodUnit = 0.674489750196081743;            // probit(0.75)
 Scale inUnits(Scale scale, double unit);                    // values and covariance / unit, unit^2
 
 } // namespace obscura

@@ -101,8 +101,8 @@ const Parameter* parameterOf(const Settings& settings, std::string_view name) {
     return nullptr;
 }
 
-// Which of the three common parameters may be fitted, and between which bounds: those that the
-// technique's row has and the study does not give.
+// Which parameters may be fitted, and between which bounds: those that the technique's row has and
+// the study does not give.
 class Freedom {
   public:
     Freedom(const TechniqueSetting& setting, const Settings& settings)
@@ -118,8 +118,13 @@ class Freedom {
                      std::min(high, static_cast<double>(parameter->high))};
     }
     std::optional<Range> multiplier() const { return range("radiusMultiplier", 1.0 / 32, 32); }
-    std::optional<Range> intensity() const { return range("intensity", 0.01, 100); }
-    std::optional<Range> power() const { return range("power", 0.1, 10); }
+    // The row's own: within four octaves of the default.
+    std::optional<Range> own(const Parameter& parameter) const {
+        const auto value = static_cast<double>(parameter.value);
+        return parameter.fitted ? range(parameter.name, value / 16, value * 16) : std::nullopt;
+    }
+    std::optional<Range> intensity() const { return range("intensity", 1e-4, 100); }
+    std::optional<Range> power() const { return range("power", 0.1, 64); } // of its size
     double start(std::string_view name) const {
         return settings_.has(name) ? static_cast<double>(settings_[name]) : 1;
     }
@@ -163,9 +168,9 @@ class Matching {
     std::string keyOf(const TechniqueSetting& setting);
     MatchedTechnique matched(const TechniqueSetting& setting);
     Image visibility(const Case& at, const Settings& settings);
-    Image rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
+    Image rawVisibility(const TechniqueSetting& setting, const Case& at, Values tried,
                         double& probe);
-    FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, double multiplier,
+    FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, const Values& tried,
                       double& probe);
     Values fit(const TechniqueSetting& setting, std::string& note);
     std::vector<MatchRow> measure(const TechniqueSetting& setting, const Values& values,
@@ -175,7 +180,7 @@ class Matching {
     const ImageSize& size(const Case& at) const {
         return at.train ? study_.training : study_.image;
     }
-    double techniqueCost() const;
+    double techniqueCost(const TechniqueSetting& setting) const;
 
     const MatchStudy& study_;
     const Folders& folders_;
@@ -194,11 +199,17 @@ class Matching {
     MatchResult result_;
 };
 
-double Matching::techniqueCost() const {
+double Matching::techniqueCost(const TechniqueSetting& setting) const {
+    const Settings settings = settingsOf(setting, study_.train.front().radius);
+    const Freedom freedom(setting, settings);
+    const std::span<const Parameter> parameters = settings.technique().parameters;
+    const bool own = std::any_of(parameters.begin(), parameters.end(), [&](const Parameter& each) {
+        return freedom.own(each).has_value();
+    });
     const auto train = static_cast<double>(study_.train.size()),
                test = static_cast<double>(study_.test.size());
-    return (fitMultiplierEvaluations + 2) * train * renderCost(study_.training) +
-           2 * test * renderCost(study_.image);
+    const int evaluations = fitMultiplierEvaluations + 2 + (own ? fitScalesEvaluations : 0);
+    return evaluations * train * renderCost(study_.training) + 2 * test * renderCost(study_.image);
 }
 
 // Everything that can be wrong with the study shows here, before the first ray.
@@ -216,7 +227,7 @@ void Matching::plan() {
             throw Error(setting.place, "expected a partner that darkens, found one without passes");
         keys_.push_back(keyOf(setting));
         if (!finished_.find(keys_.back()))
-            effort_.plan(techniqueCost());
+            effort_.plan(techniqueCost(setting));
     }
 }
 
@@ -323,11 +334,11 @@ Image Matching::visibility(const Case& at, const Settings& settings) {
     return at.probe->visibility(settings, known->second);
 }
 
-// Raw visibility at a multiplier; `probe` is the intensity to try, and falls when that clamps.
-Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
+// Raw visibility; `probe` is the intensity to try, and falls when that clamps.
+Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, Values tried,
                               double& probe) {
-    Settings settings =
-        settingsAt(setting, at.view, {{"radiusMultiplier", multiplier}, {"power", 1}});
+    tried["power"] = 1;
+    Settings settings = settingsAt(setting, at.view, tried);
     const auto render = [&] {
         if (settings.has("intensity"))
             settings.set("intensity", probe);
@@ -342,12 +353,12 @@ Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, d
 }
 
 FittedRemap Matching::fitAt(const TechniqueSetting& setting, const Freedom& freedom,
-                            double multiplier, double& probe) {
+                            const Values& tried, double& probe) {
     Comparison comparison;
     for (const Case& at : cases_) {
         if (!at.train)
             continue;
-        const Image image = rawVisibility(setting, at, multiplier, probe);
+        const Image image = rawVisibility(setting, at, tried, probe);
         comparison.add(image, probe, at.targets.at(targetOf(study_)), at.probe->shown());
         effort_.spend(renderCost(study_.training));
     }
@@ -365,33 +376,59 @@ Values Matching::fit(const TechniqueSetting& setting, std::string& note) {
         note = "the partner: as it is";
         return {};
     }
-    if (!freedom.multiplier() && !freedom.intensity() && !freedom.power()) {
+    std::vector<std::string> names; // of what each trial is rendered with
+    std::vector<Range> ranges;
+    std::vector<double> best;
+    const auto free = [&](std::string_view name, const std::optional<Range>& range) {
+        if (!range)
+            return;
+        names.emplace_back(name);
+        ranges.push_back(*range);
+        best.push_back(freedom.start(name));
+    };
+    free("radiusMultiplier", freedom.multiplier());
+    for (const Parameter& parameter : settings.technique().parameters)
+        free(parameter.name, freedom.own(parameter));
+    if (names.empty() && !freedom.intensity() && !freedom.power()) {
         note = "has nothing to fit";
         return {};
     }
-    std::map<double, FittedRemap> tried;
+    std::map<std::vector<double>, FittedRemap> tried;
     double probe = 1;
-    const auto error = [&](double multiplier) {
-        const auto found = tried.find(multiplier);
-        return found != tried.end()
-                   ? found->second.error
-                   : (tried[multiplier] = fitAt(setting, freedom, multiplier, probe)).error;
+    const auto error = [&](const std::vector<double>& at) {
+        const auto found = tried.find(at);
+        if (found != tried.end())
+            return found->second.error;
+        Values values;
+        for (std::size_t i = 0; i < at.size(); ++i)
+            values[names[i]] = at[i];
+        return (tried[at] = fitAt(setting, freedom, values, probe)).error;
     };
-    double best = freedom.start("radiusMultiplier");
-    if (const auto range = freedom.multiplier())
-        best = fitMultiplier(error, best, *range);
+    if (freedom.multiplier()) {
+        const auto along = [&](double multiplier) {
+            std::vector<double> at = best;
+            at[0] = multiplier;
+            return error(at);
+        };
+        best[0] = fitMultiplier(along, best[0], ranges[0]);
+    }
+    if (names.size() > (freedom.multiplier() ? 1u : 0u))
+        best = fitScales(error, best, ranges);
     error(best);
     Values values;
-    const auto put = [&](const char* name, const std::optional<Range>& range, double value) {
+    const auto put = [&](const std::string& name, const std::optional<Range>& range, double value,
+                         bool isExponential = false) {
         if (!range)
             return;
-        values[name] = std::clamp(significant(value), range->low, range->high);
-        if (value < range->low * 1.001 || value > range->high * 0.999)
+        const double size = std::abs(value);
+        values[name] = std::copysign(std::clamp(significant(size), range->low, range->high), value);
+        if (size < range->low * 1.001 || (size > range->high * 0.999 && !isExponential))
             note += fmt::format("{}{} ended at its bound", note.empty() ? "" : "; ", name);
     };
-    put("radiusMultiplier", freedom.multiplier(), best);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        put(names[i], ranges[i], best[i]);
     put("intensity", freedom.intensity(), tried[best].remap.intensity);
-    put("power", freedom.power(), tried[best].remap.power);
+    put("power", freedom.power(), tried[best].remap.power, freedom.intensity().has_value());
     return values;
 }
 
@@ -479,7 +516,7 @@ MatchResult Matching::run() {
         auto known = finished_.find(keys_[i]);
         result_.kept += known.has_value();
         if (!known) {
-            effort_.begin(techniqueCost(), setting.name);
+            effort_.begin(techniqueCost(setting), setting.name);
             known = matched(setting);
             finished_.add(keys_[i], *known);
             effort_.end();

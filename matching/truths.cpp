@@ -3,6 +3,8 @@
 #include "renderer/reference/depth_reference.h"
 #include "renderer/reference/reference_cache.h"
 
+#include <fmt/format.h>
+
 namespace obscura {
 
 namespace {
@@ -39,13 +41,16 @@ Image truthOf(Truth truth, const TruthInputs& inputs, const Probe& probe, LazyTr
     reference.settings.radius = inputs.view.radius;
     reference.settings.rays = inputs.rays;
     reference.settings.seed = inputs.seed;
-    if (truth == Truth::depth)
-        return cachedReference(cache, referenceKey(reference) + "-depth",
+    if (truth == Truth::depth) {
+        const double thickness = reference.settings.radius;
+        return cachedReference(cache,
+                               fmt::format("{}-depth-{:a}", referenceKey(reference), thickness),
                                [&] {
-                                   return depthReference(probe.surfaces(), reference.settings, {},
-                                                         progress);
+                                   return depthReference(probe.surfaces(), reference.settings,
+                                                         thickness, progress);
                                })
             .visibility;
+    }
     return cachedReference(
                cache, referenceKey(reference),
                [&] { return tracer.get().trace(probe.surfaces(), reference.settings, progress); })

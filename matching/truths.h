@@ -31,7 +31,8 @@ struct TruthInputs {
     std::uint64_t seed = 0;
 };
 
-// `probe` sees that view at that size. The one place that knows how each truth is made.
+// `probe` sees that view at that size. The one place that knows how each truth is made: the depth
+// buffer's has surfaces as thick as the radius (docs/reference.md says why).
 Image truthOf(Truth truth, const TruthInputs& inputs, const Probe& probe, LazyTracer& tracer,
               const std::string& sceneSha256, const std::filesystem::path& cache,
               const TraceProgress& progress = {});

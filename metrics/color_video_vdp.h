@@ -28,7 +28,7 @@ struct PredictedDifference {
 };
 
 // Of two images of one size, sRGB with 3 channels or grey with 1. Equal images give exactly 10. The
-// time is about a quarter of FLIP's (docs/benchmarks.md), the memory 20 floats a pixel.
+// time is below that of FLIP, the memory 20 floats a pixel (bench/metrics/compare).
 PredictedDifference predictedDifference(const Image8& test, const Image8& reference,
                                         const Display& display, bool withMap = false);
 

@@ -46,10 +46,12 @@ std::vector<double> filtered(const std::vector<double>& values, int width, int h
 
 } // namespace
 
-double structuralSimilarity(const Image& first, const Image& second,
-                            const std::vector<bool>& shown) {
+double structuralSimilarity(const Image& first, const Image& second, const std::vector<bool>& shown,
+                            Image* map) {
     assert(first.pixels.size() == second.pixels.size() && first.channels == 1);
     const int width = first.width, height = first.height;
+    if (map)
+        *map = {width, height, 1, std::vector<float>(first.pixels.size(), 1)};
     if (width <= 2 * reach || height <= 2 * reach)
         return std::numeric_limits<double>::quiet_NaN();
     const auto moment = [&](const Image& a, const Image* b) {
@@ -67,16 +69,34 @@ double structuralSimilarity(const Image& first, const Image& second,
     for (std::size_t i = 0; i < meanA.size(); ++i) {
         const auto narrow = static_cast<std::size_t>(width - 2 * reach);
         const std::size_t x = i % narrow + reach, y = i / narrow + reach;
-        if (!shown[y * static_cast<std::size_t>(width) + x])
+        const std::size_t centre = y * static_cast<std::size_t>(width) + x;
+        if (!shown[centre])
             continue;
         const double a = meanA[i], b = meanB[i];
         const double varianceA = squareA[i] - a * a, varianceB = squareB[i] - b * b,
                      covariance = product[i] - a * b;
-        sum += (2 * a * b + c1) * (2 * covariance + c2) /
-               ((a * a + b * b + c1) * (varianceA + varianceB + c2));
+        const double similarity = (2 * a * b + c1) * (2 * covariance + c2) /
+                                  ((a * a + b * b + c1) * (varianceA + varianceB + c2));
+        if (map)
+            map->pixels[centre] = static_cast<float>(similarity);
+        sum += similarity;
         ++count;
     }
     return count ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+}
+
+Image lumaOf(const Image8& image) {
+    assert(image.channels == 1 || image.channels == 3);
+    const auto channels = static_cast<std::size_t>(image.channels);
+    const std::size_t green = channels == 1 ? 0 : 1, blue = channels == 1 ? 0 : 2;
+    Image luma{image.width, image.height, 1, {}};
+    luma.pixels.reserve(image.pixels.size() / channels);
+    for (std::size_t i = 0; i < image.pixels.size(); i += channels)
+        luma.pixels.push_back((0.2126F * static_cast<float>(image.pixels[i]) +
+                               0.7152F * static_cast<float>(image.pixels[i + green]) +
+                               0.0722F * static_cast<float>(image.pixels[i + blue])) /
+                              255);
+    return luma;
 }
 
 ImageError imageError(const Image& image, const Image& reference, const std::vector<bool>& shown) {

@@ -18,7 +18,11 @@ ImageError imageError(const Image& image, const Image& reference, const std::vec
 // Structural similarity (Wang, Bovik, Sheikh and Simoncelli 2004) of two images of one channel and
 // a range of 1: windows of 11 x 11 weighted by a Gaussian of 1.5 pixels, K1 = 0.01, K2 = 0.03. The
 // mean over those windows that lie inside the image and whose centre is `shown`; NaN without any.
-double structuralSimilarity(const Image& first, const Image& second,
-                            const std::vector<bool>& shown);
+// `map`, when there is one, gets each such window's at its centre, and 1 elsewhere.
+double structuralSimilarity(const Image& first, const Image& second, const std::vector<bool>& shown,
+                            Image* map = nullptr);
+
+// Of sRGB code values, 3 channels or 1, as 0 ... 1: Rec. 709's weights on them.
+Image lumaOf(const Image8& image);
 
 } // namespace obscura

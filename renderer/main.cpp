@@ -1,6 +1,7 @@
 #include "base/arguments.h"
 #include "base/progress.h"
 #include "renderer/builtin/builtin.h"
+#include "renderer/compare.h"
 #include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
 #include "renderer/techniques/document.h"
@@ -282,7 +283,10 @@ int run(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--cache", options.cache,
                    "folder that keeps references; default OBSCURA_CACHE, else ~/.cache/obscura");
+    const std::function<int()> compare = addCompare(app);
     CLI11_PARSE(app, argc, argv);
+    if (app.got_subcommand("compare"))
+        return compare();
     if (options.devices)
         return printDevices();
     if (options.list)

@@ -61,27 +61,44 @@ std::string titles(const Frame& frame, const std::string& across, const std::str
                   (frame.top + frame.bottom) / 2, escaped(up));
 }
 
-std::string opening(const Frame& frame, const std::string& description) {
-    return format("<svg viewBox=\"0 0 {} {}\" role=\"group\" aria-label=\"{}\">", frame.width,
-                  frame.height, escaped(description));
+std::string opening(const Frame& frame, const std::string& description,
+                    const std::string& data = "") {
+    return format("<svg viewBox=\"0 0 {} {}\" role=\"group\" aria-label=\"{}\"{}>", frame.width,
+                  frame.height, escaped(description), data);
+}
+
+double factorOf(const Scatter& chart) { return std::pow(1 + chart.uncertainty, 2); }
+
+std::string dataOf(const Scatter& chart, const Frame& frame) {
+    return format(" data-left=\"{}\" data-right=\"{}\" data-top=\"{}\" data-bottom=\"{}\" "
+                  "data-factor=\"{}\" data-shift=\"{}\"",
+                  frame.left, frame.right, frame.top, frame.bottom, factorOf(chart),
+                  frame.x(frame.across.low * factorOf(chart)) - frame.left);
 }
 
 bool isDrawn(const ScatterPoint& point) {
     return !std::isnan(point.milliseconds) && !std::isnan(point.error);
 }
 
-// What the front leaves dominated, and its edge.
+// From above the front's first point to the right border, each point moved right by the factor.
+std::string edge(const Scatter& chart, const Frame& frame, double factor) {
+    const auto x = [&](std::size_t i) {
+        return std::min(frame.x(factor * chart.points[i].milliseconds), 1.0 * frame.right);
+    };
+    std::string path = format("M{:.1f} {}", x(chart.front[0]), frame.top);
+    for (const std::size_t i : chart.front)
+        path += format("H{:.1f}V{:.1f}", x(i), frame.y(chart.points[i].error));
+    return path + format("H{}", frame.right);
+}
+
+// What the front leaves dominated, what of it within the uncertainty of time, and its edge.
 std::string staircase(const Scatter& chart, const Frame& frame) {
     if (chart.front.empty())
         return {};
-    std::string path =
-        format("M{:.1f} {}", frame.x(chart.points[chart.front[0]].milliseconds), frame.top);
-    for (const std::size_t i : chart.front)
-        path += format("H{:.1f}V{:.1f}", frame.x(chart.points[i].milliseconds),
-                       frame.y(chart.points[i].error));
-    path += format("H{}", frame.right);
-    return format("<path class=\"dominated\" d=\"{0}V{1}z\"/><path class=\"front\" d=\"{0}\"/>",
-                  path, frame.top);
+    const std::string path = edge(chart, frame, 1);
+    return format("<path class=\"unsure\" d=\"{0}V{2}z\"/><path class=\"dominated\" "
+                  "d=\"{1}V{2}z\"/><path class=\"front\" d=\"{0}\"/>",
+                  path, edge(chart, frame, factorOf(chart)), frame.top);
 }
 
 // The points of each series in order of cost.
@@ -115,21 +132,30 @@ std::string marks(const Scatter& chart, const Frame& frame, std::size_t firstId)
         const ScatterPoint& point = chart.points[i];
         if (!isDrawn(point))
             continue;
-        const bool onFront =
-            std::find(chart.front.begin(), chart.front.end(), i) != chart.front.end();
+        const auto isIn = [&](const std::vector<std::size_t>& some) {
+            return std::find(some.begin(), some.end(), i) != some.end();
+        };
         svg += format("<a class=\"mark t{0}{1}\" href=\"#p{2}\" transform=\"translate({3:.1f},"
-                      "{4:.1f})\" aria-label=\"{5}: {6} ms, {7} {8}\"><use href=\"#s{0}\"/></a>",
-                      point.series, onFront ? " best" : "", firstId + i,
-                      frame.x(point.milliseconds), frame.y(point.error), escaped(point.name),
-                      readable(point.milliseconds), escaped(chart.error), readable(point.error));
+                      "{4:.1f})\" data-ms=\"{9}\" data-error=\"{10}\" aria-label=\"{5}: {6} ms, "
+                      "{7} {8}\"><use href=\"#s{0}\"/></a>",
+                      point.series,
+                      isIn(chart.front)  ? " best"
+                      : isIn(chart.near) ? " near"
+                                         : "",
+                      firstId + i, frame.x(point.milliseconds), frame.y(point.error),
+                      escaped(point.name), readable(point.milliseconds), escaped(chart.error),
+                      readable(point.error), point.milliseconds, point.error);
     }
     return svg;
 }
 
 std::string numbers(const Scatter& chart, const Frame& frame) {
+    // As far as a picture has them, so that a script that reads it finds the same places.
+    const auto rounded = [](double place) { return std::round(10 * place) / 10; };
     std::vector<Spot> spots;
     for (const std::size_t i : chart.front)
-        spots.push_back({frame.x(chart.points[i].milliseconds), frame.y(chart.points[i].error)});
+        spots.push_back({rounded(frame.x(chart.points[i].milliseconds)),
+                         rounded(frame.y(chart.points[i].error))});
     const auto places = numberPlaces(spots, frame.left, frame.bottom);
     std::string svg = "<g class=\"numbers\">";
     for (std::size_t k = 0; k < spots.size(); ++k) {
@@ -174,8 +200,8 @@ std::string scatterSvg(const Scatter& chart, std::size_t seriesCount, std::size_
     }
     const Frame frame{
         760, 470, 62, 748, 10, 418, logarithmicAxis(milliseconds), linearAxis(errors)};
-    return opening(frame, "Milliseconds against " + chart.error) + staircase(chart, frame) +
-           timeTicks(frame, chart.points) +
+    return opening(frame, "Milliseconds against " + chart.error, dataOf(chart, frame)) +
+           staircase(chart, frame) + timeTicks(frame, chart.points) +
            titles(frame, "milliseconds, median of frames (logarithmic)",
                   format("{}, {} reference", chart.error, chart.reference)) +
            threads(chart, frame, seriesCount) + bars(chart, frame) + numbers(chart, frame) +

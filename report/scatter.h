@@ -22,13 +22,18 @@ struct ScatterPoint {
 struct Scatter {
     std::vector<ScatterPoint> points; // those without time or error are not drawn
     std::vector<std::size_t> front;   // that none dominates, by rising milliseconds
+    std::vector<std::size_t> near;    // that would be there within the uncertainty of time
     std::string error;                // what it is: "RMSE, matched"
     std::string reference;            // against what: "full"
+    double uncertainty = 0;           // of milliseconds, each way, as a share
 };
 
 // Milliseconds (logarithmic; what took no time stands on the left border) against the error. Each
 // point is a link to its details, "#p<firstId + index>"; the front's are numbered in its order, and
-// a staircase marks what it leaves dominated.
+// a staircase marks what it leaves dominated. Where times are uncertain, what is dominated within
+// that is shaded more lightly, and reaches (1 + uncertainty)^2 as far as the staircase. Data
+// attributes say what a script needs to draw the front of some of the points: of the picture the
+// plot's edges, the factor and by how much it moves the edge to the right; of a mark its numbers.
 std::string scatterSvg(const Scatter& scatter, std::size_t seriesCount, std::size_t firstId);
 
 // The same for a figure of 7.2 x 4.4 inches, with a key at its right; "" where nothing has both a

@@ -21,22 +21,34 @@ set lmargin at screen 0.085
 set rmargin at screen 0.64
 set tmargin at screen 0.97
 set bmargin at screen 0.12
-set xlabel 'milliseconds (what is free stands at the left edge)'
 )";
 
-// From above the first point of the front to the right border.
-std::string staircase(const Scatter& scatter, double top, double right) {
+std::string timeTitle(const Scatter& scatter) {
+    return format("milliseconds (what is free stands at the left edge{})",
+                  scatter.uncertainty > 0
+                      ? format("; dotted: the front, times ±{:.1f} %", 100 * scatter.uncertainty)
+                      : "");
+}
+
+// From above the first point of the front to the right border; what takes more time than `free`
+// moved by `factor`.
+std::string staircase(const Scatter& scatter, double top, double right, double free,
+                      double factor) {
     std::string lines;
     for (const std::size_t i : scatter.front) {
         const ScatterPoint& point = scatter.points[i];
+        const double time = point.milliseconds * (point.milliseconds > free ? factor : 1);
+        if (time > right)
+            break;
         if (lines.empty())
-            lines = format("{} {}\n", point.milliseconds, top);
-        lines += format("{} {}\n", point.milliseconds, point.error);
+            lines = format("{} {}\n", time, top);
+        lines += format("{} {}\n", time, point.error);
     }
     return lines + format("{} {}\n", right, scatter.points[scatter.front.back()].error);
 }
 
-// Series in two columns, then the front's points, in the margin at the right.
+// Series in two columns, then the front's points, in the margin at the right, and how uncertain
+// times are.
 std::string key(const Scatter& scatter, const std::vector<std::string>& seriesNames,
                 const std::map<std::size_t, std::string>& series) {
     constexpr double left = 0.665, top = 0.965, line = 0.036;
@@ -131,13 +143,20 @@ std::string scatterScript(const Scatter& measured, const std::vector<std::string
     const Axis across = logarithmicAxis(milliseconds), up = linearAxis(errors);
     std::vector<std::string> elements{
         "$front using 1:2 with steps linewidth 1.5 linecolor rgb '#333333' notitle"};
-    std::string data = plot::block("front", staircase(scatter, up.high, across.high));
+    std::string data = plot::block("front", staircase(scatter, up.high, across.high, free, 1));
+    if (scatter.uncertainty > 0) {
+        data += plot::block("unsure", staircase(scatter, up.high, across.high, free,
+                                                std::pow(1 + scatter.uncertainty, 2)));
+        elements.push_back("$unsure using 1:2 with steps linewidth 0.8 dashtype 3 linecolor rgb "
+                           "'#666666' notitle");
+    }
     for (const auto& [index, lines] : series) {
         data += plot::block(format("t{}", index), lines);
         elements.push_back(seriesPlot(index));
     }
     return plot::style + plot::ticks("x", across) + plot::ticks("y", up) + frame +
-           format("set ylabel {}\n", gnuplotText(scatter.error)) +
+           format("set xlabel {}\nset ylabel {}\n", gnuplotText(timeTitle(scatter)),
+                  gnuplotText(scatter.error)) +
            key(scatter, seriesNames, series) + frontNumbers(scatter, across, up) + data + "plot " +
            plot::list(elements) + "\n";
 }

@@ -42,8 +42,8 @@ const std::map<std::string, Rooms> allowed = [] {
     room("renderer/frame", {"renderer/scene", "renderer/shaders", "gl"});
     room("renderer/techniques", {"renderer/frame"});
     room("renderer/reference", {"renderer/frame"});
-    room("renderer", {"renderer/builtin", "renderer/techniques", "renderer/reference"});
-    room("matching", {"renderer", "metrics"});
+    room("renderer", {"renderer/builtin", "renderer/techniques", "renderer/reference", "metrics"});
+    room("matching", {"renderer"});
     room("stimuli", {"matching"});
     room("bench", {"matching", "report"});
     room("inference", {"base"});

@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -41,15 +42,16 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 const std::string camera = " --camera 0 2 8 0 1 0";
-const std::string small = camera + " --width 32 --height 18 --antialiasing 1 --out @/o.png";
+const std::string tiny = camera + " --width 32 --height 18 --antialiasing 1";
+const std::string small = tiny + " --out @/o.png";
 
 TEST(Programs, ExplainThemselves) {
     for (const char* program :
-         {"obscura-render", "obscura-stimuli", "obscura-stimuli match", "obscura-experiment",
-          "obscura-experiment ledger", "obscura-analysis", "obscura-bench", "obscura-bench rays",
-          "obscura-bench normals", "obscura-bench passes", "obscura-bench sweep",
-          "obscura-bench merge", "obscura-bench page", "obscura-bench ablation",
-          "obscura-bench choose", "obscura-bench stability"}) {
+         {"obscura-render", "obscura-render compare", "obscura-stimuli", "obscura-stimuli match",
+          "obscura-experiment", "obscura-experiment ledger", "obscura-analysis", "obscura-bench",
+          "obscura-bench rays", "obscura-bench normals", "obscura-bench passes",
+          "obscura-bench sweep", "obscura-bench merge", "obscura-bench page",
+          "obscura-bench ablation", "obscura-bench choose", "obscura-bench stability"}) {
         const Outcome outcome = run(std::string(program) + " --help");
         EXPECT_EQ(outcome.status, 0) << program;
         EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << program;
@@ -71,6 +73,53 @@ TEST(Programs, TakeRightArguments) {
         const Outcome outcome = run(replaced(arguments, "@", folder.path().string()));
         EXPECT_EQ(outcome.status, 0) << arguments << "\n" << outcome.said;
     }
+}
+
+// Every metric and every map, of a picture and its negative in one channel.
+TEST(Programs, CompareTwoPictures) {
+    const test::Folder folder;
+    const auto at = [&](const std::string& text) {
+        return replaced(text, "@", folder.path().string());
+    };
+    ASSERT_EQ(run(at("obscura-render --set blur=0 --technique crytek --out @/a.png" + tiny)).status,
+              0);
+    ASSERT_EQ(run(at("obscura-render --out @/b.png" + tiny)).status, 0);
+    const Outcome same = run(at("obscura-render compare @/a.png @/a.png --json"));
+    EXPECT_EQ(same.status, 0) << same.said;
+    for (const char* line : {"\"rmse\": 0.0,", "\"ssim\": 1.0,", "\"flip\": 0.0,", "\"jod\": 10.0",
+                             "\"distanceCm\": 60.0,"})
+        EXPECT_THAT(same.said, HasSubstr(line));
+    const Outcome apart = run(at("obscura-render compare @/b.png @/a.png --display laptop "
+                                 "--display peak=100 --maps @/maps"));
+    EXPECT_EQ(apart.status, 0) << apart.said;
+    EXPECT_THAT(apart.said, HasSubstr("predicted"));
+    EXPECT_THAT(apart.said, HasSubstr("15.4-inch, 1280 x 800 pixels, from 60 cm"));
+    EXPECT_THAT(apart.said, Not(HasSubstr("JOD   10")));
+    for (const char* map : {"difference", "ssim", "flip", "jod"})
+        EXPECT_GT(std::filesystem::file_size(folder / ("maps/" + std::string(map) + ".png")), 1000u)
+            << map;
+}
+
+TEST(Programs, RefuseToCompareWhatCannotBe) {
+    const test::Folder folder;
+    const auto at = [&](const std::string& text) {
+        return replaced(text, "@", folder.path().string());
+    };
+    ASSERT_EQ(run(at("obscura-render --out @/a.png" + tiny)).status, 0);
+    ASSERT_EQ(
+        run(at("obscura-render --out @/b.png --antialiasing 1 --width 32 --height 20" + camera))
+            .status,
+        0);
+    const auto says = [&](const std::string& arguments, const std::string& words) {
+        const Outcome outcome = run(at("obscura-render compare " + arguments));
+        EXPECT_NE(outcome.status, 0) << arguments;
+        EXPECT_THAT(outcome.said, HasSubstr(at(words)));
+    };
+    says("@/a.png @/b.png", "expected two pictures of one size, found @/a.png of 32 x 18 and "
+                            "@/b.png of 32 x 20 pixels");
+    says("@/a.png @/none.png", "@/none.png");
+    says("@/a.png @/a.png --display standart_fhd", "did you mean \"standard_fhd\"?");
+    says("@/a.png", "reference");
 }
 
 struct Mistake {
@@ -132,6 +181,7 @@ TEST(Programs, RefuseWrongOnes) {
         {sweep + "--hours nan", "expected a number from 0"},
         {sweep + "--size 0x100", "expected --size WIDTHxHEIGHT"},
         {sweep + "--size 320", "expected --size WIDTHxHEIGHT"},
+        {sweep + "--display crt", "--display: expected the name of a display"},
         {sweep + "--part 3/2", "expected --part I/N"},
         {choose + "--limit rmse", "--limit NAME=NUMBER, found \"rmse\""},
         {choose + "--limit rmsee=0.1", "did you mean \"rmse\"?"},

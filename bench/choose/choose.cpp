@@ -1,5 +1,7 @@
 #include "bench/choose/choose.h"
 
+#include "bench/choose/stages.h"
+#include "bench/measure/machine.h"
 #include "bench/measure/timing.h"
 #include "bench/motion/steadiness.h"
 #include "bench/sweep/summary.h"
@@ -11,8 +13,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <functional>
 #include <limits>
-#include <memory>
+#include <map>
 
 namespace obscura {
 
@@ -20,60 +24,26 @@ namespace {
 
 constexpr ImageSize glanceSize{160, 90};
 constexpr int glanceRays = 64, glanceFrames = 5;
-// A glance sees one small view: what is over the budget by less than this may still meet it.
-constexpr double glanceFactor = 1.5, glanceMargin = 0.02;
-// Costs by a few frames that differ by less than this are not told apart.
-constexpr double nearlyAlike = 1.15;
+// Errors on a few small views that differ by less than this are not told apart.
+constexpr double rmseAlike = 0.03;
+// Candidates that are asked at once about what takes long: their truth is the same.
+constexpr std::size_t together = 3;
 
-// Each scene of a study, once loaded, with its views measured so far.
-class Stages {
-  public:
-    Stages(const SweepStudy& study, const Folders& folders, const SweepPlan& plan,
-           const std::function<void(const std::string&)>& tell)
-        : study_(study), folders_(folders), plan_(plan), tell_(tell), hashes_(folders) {}
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-    MeasuredView& view(std::size_t i) {
-        const View& view = study_.match.test[i];
-        std::unique_ptr<MeasuredView>& known = views_[i];
-        if (!known) {
-            Stage& stage = stageOf(view);
-            const auto start = std::chrono::steady_clock::now();
-            known = std::make_unique<MeasuredView>(
-                stage.subject, stage.tracer, study_, view, study_.sizes.front(), false, folders_,
-                hashes_.of(view), plan_.cache,
-                [&](double, const std::string& note) { tell_(note); });
-            references_ +=
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        }
-        return *known;
-    }
-    const Scene& scene(std::size_t i) { return stageOf(study_.match.test[i]).scene; }
-    std::size_t count() const { return study_.match.test.size(); }
-    double secondsForReferences() const { return references_; }
+const std::string& nameOf(const Candidate& candidate) {
+    return candidate.configuration.setting.name;
+}
 
-  private:
-    struct Stage {
-        explicit Stage(Scene loaded) : scene(std::move(loaded)), tracer(scene), subject(scene) {}
-        Scene scene;
-        LazyTracer tracer;
-        Subject subject;
-    };
-    Stage& stageOf(const View& view) {
-        std::unique_ptr<Stage>& known = stages_[sceneOf(view)];
-        if (!known)
-            known = std::make_unique<Stage>(loadSceneOf(view, folders_));
-        return *known;
-    }
-
-    const SweepStudy& study_;
-    const Folders& folders_;
-    const SweepPlan& plan_;
-    const std::function<void(const std::string&)>& tell_;
-    SceneHashes hashes_;
-    std::map<std::string, std::unique_ptr<Stage>> stages_;
-    std::map<std::size_t, std::unique_ptr<MeasuredView>> views_;
-    double references_ = 0;
-};
+// Time and flicker are not known yet, and within any limit.
+ViewResult resultOf(const PictureError& matched, const PictureError& lit) {
+    ViewResult result;
+    result.rmse = matched.rmse;
+    result.flip = matched.flip;
+    result.litFlip = lit.flip;
+    result.jod = lit.jod;
+    return result;
+}
 
 class Choosing {
   public:
@@ -81,17 +51,26 @@ class Choosing {
              const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress)
         : study_(study), budget_(budget), folders_(folders), plan_(plan), driver_(driver),
           progress_(progress), tell_([this](const std::string& note) { tell(note); }),
-          stages_(study, folders, plan, tell_), timing_(gl::honestTiming().timing) {}
+          stages_(study, folders, plan, tell_), timing_(gl::honestTiming()) {}
 
     Choice run();
 
   private:
+    using Candidates = std::vector<Candidate*>;
+
     void glance();
     void timeAll();
+    void dropDominated();
+    std::pair<Candidates, Candidates> contenders();
+    Candidates nearestAtAGlance();
+    void fit(const Candidates& contenders);
     void measure(Candidate& candidate);
-    std::vector<std::size_t> finalists(std::size_t& next);
-    void timeAtLength(std::span<const std::size_t> finalists);
-    void testSteadiness(std::span<const std::size_t> finalists);
+    void walk(Candidates contenders);
+    void timeAtLength();
+    void pick();
+    void testSteadiness(std::span<Candidate*> some);
+    void compareWithChosen();
+    Candidates withinBudget();
     std::map<std::string, MatchedTechnique> fits(const MatchStudy& study,
                                                  const std::string& folder);
     std::vector<Milliseconds> milliseconds(std::size_t view, const std::vector<Settings>& settings,
@@ -109,9 +88,11 @@ class Choosing {
     const SweepProgress& progress_;
     const std::function<void(const std::string&)> tell_;
     Stages stages_;
-    gl::Timing timing_;
+    gl::TimingChoice timing_;
     Choice choice_;
-    double done_ = 0; // in candidates, each rung counting alike
+    std::map<std::string, std::vector<double>> glances_; // RMSE on each view, by name
+    int failures_ = 0;                                   // of candidates on held-out views
+    double done_ = 0;                                    // in candidates, each rung counting alike
 };
 
 std::vector<Milliseconds> Choosing::milliseconds(std::size_t view,
@@ -121,7 +102,7 @@ std::vector<Milliseconds> Choosing::milliseconds(std::size_t view,
     plan.frames = frames;
     plan.seconds = seconds;
     plan.seed = study_.match.seed;
-    plan.timing = timing_;
+    plan.timing = timing_.timing;
     const double before = done_;
     MeasuredView& seen = stages_.view(view);
     const auto times =
@@ -154,10 +135,11 @@ std::map<std::string, MatchedTechnique> Choosing::fits(const MatchStudy& study,
     return byName;
 }
 
+// On training views alone, so that what is left out here is no choice by the views that judge.
 void Choosing::glance() {
     MatchStudy study = study_.match;
+    study.test = study.train;
     study.train.resize(1);
-    study.test.resize(1);
     study.training = study.image = glanceSize;
     study.rays = std::min(study.rays, glanceRays);
     study.scores.clear();
@@ -167,15 +149,18 @@ void Choosing::glance() {
         Candidate candidate;
         candidate.configuration = {technique, matched.fitted};
         candidate.glanceRmse = summaryOf(matched.rows, nameOf(study.truth), "matched").rmse;
-        candidate.rmse = candidate.milliseconds = std::numeric_limits<double>::quiet_NaN();
-        if (budget_.rmse && candidate.glanceRmse > *budget_.rmse * glanceFactor + glanceMargin)
-            candidate.verdict = fmt::format("RMSE {:.3f} at a glance, budget {:.3f}",
-                                            candidate.glanceRmse, *budget_.rmse);
+        for (const MatchRow& row : matched.rows)
+            if (!row.train && row.stage == "matched" && row.reference == nameOf(study.truth))
+                glances_[technique.name].push_back(row.error.rmse);
+        candidate.rmse = candidate.milliseconds = candidate.trainingRmse = nan;
+        if (budget_.rmse && candidate.glanceRmse > farOver(*budget_.rmse))
+            candidate.verdict = "RMSE far over the limit at a glance";
         choice_.candidates.push_back(std::move(candidate));
     }
 }
 
-// As matched at a glance, for a radius changes the cost.
+// As matched at a glance, for a radius changes the cost; the fastest of few frames, because what
+// else the machine does only adds to their times.
 void Choosing::timeAll() {
     const double radius = study_.match.test.front().radius;
     std::vector<Settings> settings;
@@ -185,104 +170,162 @@ void Choosing::timeAll() {
         milliseconds(0, settings, glanceFrames, std::numeric_limits<double>::infinity(), false);
     for (std::size_t i = 0; i < times.size(); ++i) {
         Candidate& candidate = choice_.candidates[i];
-        candidate.glanceMilliseconds = times[i].median;
+        candidate.glanceMilliseconds = times[i].low;
         if (candidate.verdict.empty() && budget_.milliseconds &&
             candidate.glanceMilliseconds > *budget_.milliseconds * glanceFactor)
-            candidate.verdict = fmt::format("{:.3g} ms at a glance, budget {:.3g}",
-                                            candidate.glanceMilliseconds, *budget_.milliseconds);
+            candidate.verdict = "milliseconds far over the limit at a glance";
     }
-    std::stable_sort(choice_.candidates.begin(), choice_.candidates.end(),
-                     [](const Candidate& a, const Candidate& b) {
-                         return a.glanceMilliseconds < b.glanceMilliseconds;
-                     });
 }
 
-// Fits the candidate on all training views, and measures it on all others at full size.
-void Choosing::measure(Candidate& candidate) {
+// By one that is clearly better, and on every view, and clearly cheaper or, asked for the best
+// within a time, clearly within it.
+void Choosing::dropDominated() {
+    const auto isBetter = [&](const Candidate& other, const Candidate& candidate) {
+        const std::vector<double>&a = glances_[nameOf(other)], &b = glances_[nameOf(candidate)];
+        return other.glanceRmse + rmseAlike <= candidate.glanceRmse &&
+               std::equal(a.begin(), a.end(), b.begin(), b.end(), std::less<>());
+    };
+    for (Candidate& candidate : choice_.candidates)
+        for (const Candidate& other : choice_.candidates) {
+            const double most = budget_.best ? *budget_.milliseconds : candidate.glanceMilliseconds;
+            if (candidate.verdict.empty() && other.glanceMilliseconds * glanceFactor <= most &&
+                isBetter(other, candidate))
+                candidate.verdict =
+                    fmt::format("{} ({:.3g} ms, RMSE {:.3f}) is preferable at a glance",
+                                nameOf(other), other.glanceMilliseconds, other.glanceRmse);
+        }
+}
+
+// Those that a glance left: first those that may be the answer, then those that are dearer than
+// one that is as far within the limit as those that fell out are over it.
+std::pair<Choosing::Candidates, Choosing::Candidates> Choosing::contenders() {
+    double enough = std::numeric_limits<double>::infinity();
+    for (const Candidate& candidate : choice_.candidates)
+        if (budget_.rmse && !budget_.best && candidate.verdict.empty() &&
+            farOver(candidate.glanceRmse) <= *budget_.rmse)
+            enough = std::min(enough, candidate.glanceMilliseconds);
+    std::pair<Candidates, Candidates> result;
+    for (Candidate& candidate : choice_.candidates)
+        if (candidate.verdict.empty())
+            (candidate.glanceMilliseconds <= enough ? result.first : result.second)
+                .push_back(&candidate);
+    if (result.first.empty())
+        result.first = nearestAtAGlance();
+    return result;
+}
+
+// Nothing is near the limits; so that it can be said what came nearest, and how near.
+Choosing::Candidates Choosing::nearestAtAGlance() {
+    const auto excessOf = [&](const Candidate* candidate) {
+        return std::max(budget_.rmse ? candidate->glanceRmse / *budget_.rmse : 0,
+                        budget_.milliseconds ? candidate->glanceMilliseconds / *budget_.milliseconds
+                                             : 0);
+    };
+    Candidates nearest;
+    for (Candidate& candidate : choice_.candidates)
+        nearest.push_back(&candidate);
+    std::stable_sort(nearest.begin(), nearest.end(), [&](const Candidate* a, const Candidate* b) {
+        return excessOf(a) < excessOf(b);
+    });
+    nearest.resize(std::min<std::size_t>(nearest.size(), failuresAllowed));
+    return nearest;
+}
+
+void Choosing::fit(const Candidates& contenders) {
     MatchStudy study = study_.match;
     study.test.resize(1); // the fit alone is wanted
     study.scores.clear();
-    std::erase_if(study.techniques, [&](const TechniqueSetting& each) {
-        return each.name != candidate.configuration.setting.name;
-    });
-    candidate.configuration.fitted = fits(study, "match").begin()->second.fitted;
-    candidate.rung = Rung::held_out;
-    candidate.rmse = 0;
-    for (std::size_t i = 0; i < stages_.count(); ++i) {
-        MeasuredView& seen = stages_.view(i);
-        const Image image =
-            seen.probe().visibility(settingsAt(candidate.configuration, seen.view().radius, true));
-        const ViewErrors errors = seen.errorsOf(image);
-        candidate.views.push_back({errors.full.rmse, errors.full.flip, errors.lit.flip, 0,
-                                   0}); // the rest is not known yet
-        candidate.rmse += errors.full.rmse / static_cast<double>(stages_.count());
-        tell("measuring " + candidate.configuration.setting.name);
+    study.techniques.clear();
+    for (const Candidate* candidate : contenders)
+        study.techniques.push_back(candidate->configuration.setting);
+    const auto fitted = fits(study, "match");
+    for (Candidate* candidate : contenders) {
+        std::vector<MatchRow> rows = fitted.at(nameOf(*candidate)).rows;
+        std::erase_if(rows, [](const MatchRow& row) { return !row.train; });
+        for (MatchRow& row : rows)
+            row.train = false; // summaryOf() looks at test views
+        candidate->configuration.fitted = fitted.at(nameOf(*candidate)).fitted;
+        candidate->trainingRmse = summaryOf(rows, nameOf(study.truth), "matched").rmse;
     }
 }
 
-// Looks at candidates from `next` on and returns the first that meets the limits on errors, and
-// those of nearly the same cost that meet them too. Afterwards `next` is the first candidate that
-// was not looked at.
-std::vector<std::size_t> Choosing::finalists(std::size_t& next) {
-    std::vector<std::size_t> found;
-    for (; next < choice_.candidates.size(); ++next) {
-        Candidate& candidate = choice_.candidates[next];
-        if (!found.empty() &&
-            candidate.glanceMilliseconds >
-                nearlyAlike * choice_.candidates[found.front()].glanceMilliseconds)
-            break;
-        if (!candidate.verdict.empty())
-            continue;
-        measure(candidate);
-        candidate.verdict = excess(budget_, candidate.views);
-        if (candidate.verdict.empty())
-            found.push_back(next);
+// On all held-out views at full size.
+void Choosing::measure(Candidate& candidate) {
+    candidate.rung = Rung::held_out;
+    for (std::size_t i = 0; i < stages_.count(); ++i) {
+        MeasuredView& seen = stages_.view(i);
+        const ViewErrors errors = seen.errorsOf(
+            seen.probe().visibility(settingsAt(candidate.configuration, seen.view().radius, true)));
+        candidate.views.push_back(resultOf(errors.full, errors.lit));
+        tell("measuring " + nameOf(candidate));
     }
+    candidate.rmse = meanOf(candidate.views, &ViewResult::rmse);
+}
+
+void Choosing::walk(Candidates contenders) {
+    std::stable_sort(
+        contenders.begin(), contenders.end(),
+        [](const Candidate* a, const Candidate* b) { return a->trainingRmse < b->trainingRmse; });
+    for (Candidate* candidate : contenders) {
+        if (failures_ == failuresAllowed) {
+            candidate->verdict = fmt::format(
+                "not tried, for {} that were better on training views failed", failures_);
+            continue;
+        }
+        measure(*candidate);
+        candidate->verdict = excess(budget_, candidate->views);
+        failures_ += !candidate->verdict.empty();
+    }
+}
+
+// All that was measured, on every view, for as long as a sweep would.
+void Choosing::timeAtLength() {
+    Candidates measured;
+    for (Candidate& candidate : choice_.candidates)
+        if (candidate.rung == Rung::held_out)
+            measured.push_back(&candidate);
+    for (Candidate* candidate : measured)
+        candidate->milliseconds = 0;
+    for (std::size_t i = 0; i < stages_.count() && !measured.empty(); ++i) {
+        std::vector<Settings> settings;
+        for (const Candidate* candidate : measured)
+            settings.push_back(
+                settingsAt(candidate->configuration, stages_.view(i).view().radius, true));
+        const auto times = milliseconds(i, settings, study_.frames, study_.seconds, true);
+        for (std::size_t k = 0; k < measured.size(); ++k) {
+            measured[k]->views[i].milliseconds = times[k].high;
+            measured[k]->milliseconds += times[k].median / static_cast<double>(stages_.count());
+        }
+    }
+    for (Candidate* candidate : measured)
+        candidate->verdict = excess(budget_, candidate->views);
+}
+
+// Measured and within all limits known so far, the preferable first.
+Choosing::Candidates Choosing::withinBudget() {
+    Candidates found;
+    for (Candidate& candidate : choice_.candidates)
+        if (candidate.rung >= Rung::held_out && candidate.verdict.empty())
+            found.push_back(&candidate);
+    std::stable_sort(found.begin(), found.end(), [&](const Candidate* a, const Candidate* b) {
+        return worth(budget_, *a) < worth(budget_, *b);
+    });
     return found;
 }
 
-// Times the finalists on every view for as long as a sweep would, and puts them into their new
-// order.
-void Choosing::timeAtLength(std::span<const std::size_t> finalists) {
-    for (const std::size_t f : finalists)
-        choice_.candidates[f].milliseconds = 0;
-    for (std::size_t i = 0; i < stages_.count(); ++i) {
-        std::vector<Settings> settings;
-        for (const std::size_t f : finalists)
-            settings.push_back(settingsAt(choice_.candidates[f].configuration,
-                                          stages_.view(i).view().radius, true));
-        const auto times = milliseconds(i, settings, study_.frames, study_.seconds, true);
-        for (std::size_t k = 0; k < finalists.size(); ++k) {
-            Candidate& candidate = choice_.candidates[finalists[k]];
-            candidate.views[i].milliseconds = times[k].high;
-            candidate.milliseconds += times[k].median / static_cast<double>(stages_.count());
-        }
-    }
-    std::vector<Candidate> order;
-    for (const std::size_t f : finalists)
-        order.push_back(std::move(choice_.candidates[f]));
-    std::stable_sort(order.begin(), order.end(), [](const Candidate& a, const Candidate& b) {
-        return a.milliseconds < b.milliseconds;
-    });
-    for (std::size_t k = 0; k < finalists.size(); ++k)
-        choice_.candidates[finalists[k]] = std::move(order[k]);
-}
-
-// First the failure tests, which are quick; then motion from every view, for all finalists at once,
-// because what takes long is the truth of each frame.
-void Choosing::testSteadiness(std::span<const std::size_t> finalists) {
-    std::vector<std::size_t> left;
-    for (const std::size_t f : finalists) {
-        Candidate& candidate = choice_.candidates[f];
-        candidate.verdict = excess(budget_, candidate.views);
-        if (candidate.verdict.empty() && !budget_.failures.empty()) {
-            tell("failure tests of " + candidate.configuration.setting.name);
-            candidate.verdict = failuresOf(
-                settingsAt(candidate.configuration, study_.match.test.front().radius, true),
+// First the failure tests, which are quick; then motion from every view, for some at once, because
+// what takes long is the truth of each frame.
+void Choosing::testSteadiness(std::span<Candidate*> some) {
+    Candidates left;
+    for (Candidate* candidate : some) {
+        if (!budget_.failures.empty()) {
+            tell("failure tests of " + nameOf(*candidate));
+            candidate->verdict = failuresOf(
+                settingsAt(candidate->configuration, study_.match.test.front().radius, true),
                 budget_.failures, plan_.folder / "failures");
         }
-        if (candidate.verdict.empty())
-            left.push_back(f);
+        if (candidate->verdict.empty())
+            left.push_back(candidate);
     }
     if (!budget_.flicker || left.empty())
         return;
@@ -290,38 +333,85 @@ void Choosing::testSteadiness(std::span<const std::size_t> finalists) {
         const View& view = study_.match.test[i];
         tell("flicker from " + view.name);
         std::vector<NamedSettings> named;
-        for (const std::size_t f : left) {
-            const Configuration& configuration = choice_.candidates[f].configuration;
+        for (const Candidate* candidate : left)
             named.push_back(
-                {configuration.setting.name, settingsAt(configuration, view.radius, true)});
-        }
+                {nameOf(*candidate), settingsAt(candidate->configuration, view.radius, true)});
         const auto flicker =
             flickerOf(stages_.scene(i), view, named, plan_.folder / "flicker" / view.name);
         for (std::size_t k = 0; k < left.size(); ++k)
-            choice_.candidates[left[k]].views[i].flicker = flicker[k];
+            left[k]->views[i].flicker = flicker[k];
     }
-    for (const std::size_t f : left)
-        choice_.candidates[f].verdict = excess(budget_, choice_.candidates[f].views);
+    for (Candidate* candidate : left)
+        candidate->verdict = excess(budget_, candidate->views);
+}
+
+void Choosing::pick() {
+    std::stable_sort(choice_.candidates.begin(), choice_.candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return costOf(a) < costOf(b); });
+    const Candidates order = withinBudget();
+    for (std::size_t first = 0; first < order.size() && !choice_.chosen; first += together) {
+        Candidates some(order.begin() + static_cast<std::ptrdiff_t>(first),
+                        order.begin() +
+                            static_cast<std::ptrdiff_t>(std::min(first + together, order.size())));
+        testSteadiness(some);
+        const auto found = std::find_if(some.begin(), some.end(), [](const Candidate* candidate) {
+            return candidate->verdict.empty();
+        });
+        if (found == some.end())
+            continue;
+        (*found)->rung = Rung::chosen;
+        choice_.chosen = static_cast<std::size_t>(*found - choice_.candidates.data());
+    }
+}
+
+// View by view, for what is hard is hard for all; in the order of errors on training views, from
+// the worst on, until failuresAllowed are not told apart: budget.h says why.
+void Choosing::compareWithChosen() {
+    if (!budget_.best || !choice_.chosen || stages_.count() < 2)
+        return;
+    const Candidate& chosen = choice_.candidates[*choice_.chosen];
+    Candidates others = withinBudget();
+    std::erase(others, &chosen);
+    std::stable_sort(others.begin(), others.end(), [](const Candidate* a, const Candidate* b) {
+        return a->trainingRmse > b->trainingRmse;
+    });
+    for (const Candidate* other : others) {
+        std::vector<double> gains; // of the chosen one
+        for (std::size_t i = 0; i < chosen.views.size(); ++i)
+            gains.push_back(budget_.best->distance(chosen.views[i].*budget_.best->value) -
+                            budget_.best->distance(other->views[i].*budget_.best->value));
+        if (choice_.alike.size() >= failuresAllowed || upperBound(gains) >= 0)
+            choice_.alike.push_back(static_cast<std::size_t>(other - choice_.candidates.data()));
+    }
+    std::sort(choice_.alike.begin(), choice_.alike.end());
 }
 
 Choice Choosing::run() {
     const auto start = std::chrono::steady_clock::now();
+    SceneHashes hashes(folders_);
+    choice_.machine = machineOf(driver_, timing_, identityOf(study_, hashes));
     glance();
     timeAll();
-    for (std::size_t next = 0; next < choice_.candidates.size() && !choice_.chosen;) {
-        const std::vector<std::size_t> final = finalists(next);
-        if (final.empty())
-            break;
-        timeAtLength(final);
-        testSteadiness(final);
-        const auto first = std::find_if(final.begin(), final.end(), [&](std::size_t f) {
-            return choice_.candidates[f].verdict.empty();
-        });
-        if (first == final.end())
-            continue;
-        choice_.chosen = *first;
-        choice_.candidates[*first].rung = Rung::chosen;
-    }
+    dropDominated();
+    const auto [near, far] = contenders();
+    std::vector<std::string> names; // places change as candidates are put into order
+    for (const Candidate* candidate : far)
+        names.push_back(nameOf(*candidate));
+    const auto tryOut = [&](const Candidates& some) {
+        if (some.empty() || choice_.chosen || failures_ == failuresAllowed)
+            return;
+        fit(some);
+        walk(some);
+        timeAtLength();
+        pick();
+    };
+    tryOut(near);
+    Candidates rest;
+    for (Candidate& candidate : choice_.candidates)
+        if (std::find(names.begin(), names.end(), nameOf(candidate)) != names.end())
+            rest.push_back(&candidate);
+    tryOut(rest);
+    compareWithChosen();
     choice_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -
         stages_.secondsForReferences();
@@ -330,16 +420,30 @@ Choice Choosing::run() {
 
 } // namespace
 
+double worth(const Budget& budget, const Candidate& candidate) {
+    return budget.best ? budget.best->distance(meanOf(candidate.views, budget.best->value))
+                       : candidate.milliseconds;
+}
+
+double costOf(const Candidate& candidate) {
+    return std::isnan(candidate.milliseconds) ? candidate.glanceMilliseconds
+                                              : candidate.milliseconds;
+}
+
 Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress) {
-    if (budget.litFlip && !study.light)
-        throw Error("expected a study with [light] for a limit on litFlip, found one without");
-    if ((budget.rmse || budget.flip || budget.litFlip || budget.flicker) &&
-        study.match.test.size() < 2)
-        throw Error(
-            fmt::format("expected at least two test views, for a limit on errors or flicker "
-                        "is met with confidence over views, found {}",
-                        study.match.test.size()));
+    for (const Measure& measure : measures()) {
+        const bool limited = (budget.*measure.limit).has_value();
+        if (limited && !study.light && measure.lit)
+            throw Error(fmt::format("expected a study with [light] for a limit on {}, found one "
+                                    "without",
+                                    measure.name));
+        if (limited && study.match.test.size() < 2)
+            throw Error(
+                fmt::format("expected at least two test views, for a limit on errors or flicker "
+                            "is met with confidence over views, found {}",
+                            study.match.test.size()));
+    }
     requireMeasurable(study,
                       static_cast<double>(study.match.test.size()) *
                           truthCost(study.sizes.front(), study.match.rays),
@@ -348,23 +452,19 @@ Choice choose(const SweepStudy& study, const Budget& budget, const Folders& fold
 }
 
 std::string chosenFrom(const Sweep& sweep, const Budget& budget) {
-    struct Measured {
-        double milliseconds = 0; // sum over views
-        std::vector<ViewResult> views;
-    };
-    std::map<std::string, Measured> all;
+    std::map<std::string, Candidate> all;
     std::size_t most = 0;
     for (const SweepRow& row : atTypicalSpeed(sweep.rows)) {
-        Measured& measured = all[row.configuration];
-        measured.milliseconds += row.total.median;
-        measured.views.push_back(
-            {row.matched.rmse, row.matched.flip, row.litMatched.flip, row.total.high, 0});
-        most = std::max(most, measured.views.size());
+        Candidate& candidate = all[row.configuration];
+        candidate.milliseconds += row.total.median;
+        candidate.views.push_back(resultOf(row.matched, row.litMatched));
+        candidate.views.back().milliseconds = row.total.high;
+        most = std::max(most, candidate.views.size());
     }
     std::string best;
-    for (const auto& [name, measured] : all)
-        if (measured.views.size() == most && excess(budget, measured.views).empty() &&
-            (best.empty() || measured.milliseconds < all[best].milliseconds))
+    for (const auto& [name, candidate] : all)
+        if (candidate.views.size() == most && excess(budget, candidate.views).empty() &&
+            (best.empty() || worth(budget, candidate) < worth(budget, all[best])))
             best = name;
     return best;
 }

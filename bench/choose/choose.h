@@ -4,43 +4,60 @@
 #include "bench/measure/measured_view.h"
 #include "bench/sweep/sweep.h"
 
-#include <map>
+#include <optional>
 
 namespace obscura {
 
-// The cheapest configuration that is good enough: `obscura-bench choose`.
+// The cheapest configuration that is good enough, or the best that is cheap enough:
+// `obscura-bench choose`.
 
 // How far a candidate came. Each rung costs more and leaves fewer.
 enum class Rung {
-    glance, // fitted and tested on one small view each, timed a little as matched there: those far
-            // over the budget fall out, the others are tried in order of cost
-    held_out, // fitted on all training views, measured at full size on held-out ones
-    chosen    // and timed at length, on all of them
+    glance,   // fitted on one small training view, seen on all of them, timed a little as matched
+    held_out, // fitted on all training views, measured at full size on held-out ones, timed at
+              // length
+    chosen
 };
+
+// A glance sees a few small views: what is over a limit by less than this may still meet it.
+constexpr double glanceFactor = 1.5, glanceMargin = 0.02;
+inline double farOver(double rmse) { return rmse * glanceFactor + glanceMargin; }
 
 struct Candidate {
     Configuration configuration;
     Rung rung = Rung::glance;
-    // Median, and RMSE of matched visibility. At a glance: by the glance's fit, timed on the first
-    // held-out view, so that all candidates can be compared. Else the mean of all held-out views,
-    // of milliseconds as a sweep would have them; NaN of what was not measured.
+    // RMSE is of matched visibility. At a glance: by the glance's fit, the fastest of a few frames
+    // on the first held-out view, so that all candidates can be compared. Else the mean of all
+    // held-out views, of milliseconds as a sweep would have them (medians); NaN of what was not
+    // measured.
     double glanceMilliseconds = 0, milliseconds = 0;
     double glanceRmse = 0, rmse = 0;
+    double trainingRmse = 0;       // of the fit on all training views; NaN without one
     std::vector<ViewResult> views; // from `held_out` on
-    std::string verdict;           // why it fell out; "" for the chosen one and those not needed
+    std::string verdict;           // why it fell out; "" for the chosen one and those that would do
 };
+// Milliseconds on held-out views, or else at a glance.
+double costOf(const Candidate& candidate);
+// By Budget::best or, without it, milliseconds, on held-out views; least first.
+double worth(const Budget& budget, const Candidate& candidate);
 
 struct Choice {
-    std::vector<Candidate> candidates; // by rising cost at a glance; finalists by their own
+    std::vector<Candidate> candidates; // by rising cost
     std::optional<std::size_t> chosen; // none: no candidate meets the budget
+    std::vector<std::size_t> alike;    // asked for the best: others that meet the budget and that
+                                       // the views do not tell from it, by rising cost
     double seconds = 0;                // that the search took, references left out
+    SweepMachine machine;
 };
 
-// By a race in rungs: look at all a little, time all a little, then measure in order of cost until
-// one meets every limit on errors with 95 % confidence on views that it was not fitted on (a study
-// with fewer than two test views bounds nothing: an Error). It and those of nearly its cost are the
-// finalists: timed at length, in turn, on all views, and the cheapest that meets every limit wins
-// (the fact sheet's rule, §F.8).
+// By a race. At a glance at training views fall out those far over a limit on RMSE or
+// milliseconds, and those to which a clearly cheaper one is clearly preferable. The others are
+// fitted on all training views and, in the order of their errors there, measured on views that
+// they were not fitted on, until failuresAllowed have missed a limit on errors (budget.h says
+// why); those that are dearer than one that is far within the limit wait until none of the others
+// will do. What was measured is timed at length, in turn, on all views; the cheapest that meets
+// every limit wins, or the best by Budget::best. A study with fewer than two test views bounds
+// nothing: an Error.
 Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress);
 

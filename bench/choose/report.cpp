@@ -3,21 +3,23 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "bench/sweep/pareto.h"
+#include "bench/choose/figure.h"
+#include "bench/choose/study_file.h"
+#include "bench/choose/words.h"
 #include "renderer/techniques/settings.h"
-#include "report/gnuplot.h"
-#include "report/paper_figure.h"
+#include "report/lettering.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <span>
 
 namespace obscura {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 const char* nameOf(Rung rung) {
     switch (rung) {
@@ -31,222 +33,211 @@ const char* nameOf(Rung rung) {
     return "chosen";
 }
 
-const std::string& nameOf(const Candidate& candidate) {
-    return candidate.configuration.setting.name;
-}
-
-std::string limitsOf(const Budget& budget) {
-    std::string text;
-    const auto add = [&](const char* name, const std::optional<double>& most) {
-        if (most)
-            text += fmt::format("{}{} at most {:g}", text.empty() ? "" : ", ", name, *most);
-    };
-    add("RMSE", budget.rmse);
-    add("FLIP", budget.flip);
-    add("FLIP of the lit image", budget.litFlip);
-    add("flicker", budget.flicker);
-    add("milliseconds", budget.milliseconds);
-    for (const std::string& test : budget.failures)
-        text += (text.empty() ? "no failure of " : ", no failure of ") + test;
-    return text;
-}
-
-// The candidates that would add something: those beyond the chosen one on the front at a glance,
-// except for those that were measured and failed.
-std::vector<const Candidate*> dearer(const Choice& choice) {
-    std::vector<const Candidate*> result;
-    double best = choice.candidates[*choice.chosen].glanceRmse;
-    for (std::size_t i = *choice.chosen + 1; i < choice.candidates.size(); ++i)
-        if (choice.candidates[i].glanceRmse < best &&
-            !(choice.candidates[i].rung == Rung::held_out &&
-              !choice.candidates[i].verdict.empty())) {
-            best = choice.candidates[i].glanceRmse;
-            result.push_back(&choice.candidates[i]);
-        }
-    return result;
-}
-
 constexpr std::string_view fragmentHead =
     "# Written by obscura-bench choose; a protocol takes it by include = [\"choice.toml\"].\n";
 
-std::string fragment(const SweepStudy& study, const Budget& budget, const Candidate& candidate) {
-    std::string text(fragmentHead);
-    text += fmt::format(
-        "# The cheapest of {} candidates with {}\n# on views that it was not fitted on ({} x {}): "
-        "RMSE {:.4f}, {:.3g} ms.\n[techniques.chosen] # {}\ntechnique = \"{}\"\n",
-        study.match.techniques.size(), limitsOf(budget), study.sizes.front().width,
-        study.sizes.front().height, candidate.rmse, candidate.milliseconds, nameOf(candidate),
-        candidate.configuration.setting.technique);
-    if (candidate.configuration.setting.preset)
-        text += fmt::format("preset = \"{}\"\n", candidate.configuration.setting.preset->name);
-    for (const Setting& given : candidate.configuration.setting.settings)
+std::string fragment(const SweepStudy& study, const Budget& budget, const Choice& choice) {
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    const Headline headline = headlineOf(study, budget, choice);
+    std::string text = fmt::format(
+        "{}# {}\n# {}\n# At {} x {}; {}, {}.\n[techniques.chosen] # {}\ntechnique = \"{}\"\n",
+        fragmentHead, headline.answer, headline.reason, study.sizes.front().width,
+        study.sizes.front().height, choice.machine.renderer, choice.machine.program, nameOf(chosen),
+        chosen.configuration.setting.technique);
+    if (chosen.configuration.setting.preset)
+        text += fmt::format("preset = \"{}\"\n", chosen.configuration.setting.preset->name);
+    for (const Setting& given : chosen.configuration.setting.settings)
         text += fmt::format("{} = {}\n", given.name, given.value);
-    for (const auto& [name, value] : candidate.configuration.fitted)
+    for (const auto& [name, value] : chosen.configuration.fitted)
         text += fmt::format("{} = {}\n", name, value);
     return text;
 }
 
-std::string cell(double value) { return std::isnan(value) ? "" : fmt::format("{}", value); }
+std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 std::string table(const Choice& choice) {
-    std::string text = "configuration,rung,glance_ms,ms,glance_rmse,rmse,verdict\n";
+    std::string text = "configuration,rung,glance_ms,ms,glance_rmse,training_rmse,rmse,verdict\n";
     for (const Candidate& candidate : choice.candidates)
-        text += fmt::format("{},{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
-                            nameOf(candidate.rung), candidate.glanceMilliseconds,
+        text += fmt::format("{},{},{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
+                            nameOf(candidate.rung), cell(candidate.glanceMilliseconds),
                             cell(candidate.milliseconds), cell(candidate.glanceRmse),
-                            cell(candidate.rmse), csvCell(candidate.verdict));
+                            cell(candidate.trainingRmse), cell(candidate.rmse),
+                            csvCell(candidate.verdict));
     return text;
 }
 
-// A candidate that takes no time has no logarithm and stands at the chart's left edge.
-std::string line(const Candidate& candidate, double least) {
-    std::vector<double> rmse;
-    for (const ViewResult& view : candidate.views)
-        rmse.push_back(view.rmse);
-    return fmt::format("{} {} {} \"{}\" {} {}\n", std::max(candidate.glanceMilliseconds, least),
-                       candidate.glanceRmse, candidate.rmse, nameOf(candidate), upperBound(rmse),
-                       std::max(candidate.milliseconds, least));
-}
-
-bool isFinalist(const Candidate& candidate) { return !std::isnan(candidate.milliseconds); }
-
-std::string lines(const Choice& choice, double least,
-                  const std::function<bool(const Candidate&)>& wanted) {
-    std::string text;
+std::string viewsTable(const SweepStudy& study, const Budget& budget, const Choice& choice) {
+    std::string text = "configuration,view,radius,ms_95,rmse,flip,lit_flip,jod,flicker\n";
     for (const Candidate& candidate : choice.candidates)
-        if (wanted(candidate))
-            text += line(candidate, least);
+        for (std::size_t i = 0; i < candidate.views.size(); ++i) {
+            const ViewResult& view = candidate.views[i];
+            text += fmt::format("{},{},{},{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
+                                csvCell(study.match.test[i].name), study.match.test[i].radius,
+                                cell(view.milliseconds), cell(view.rmse), cell(view.flip),
+                                cell(view.litFlip), cell(view.jod),
+                                budget.flicker && view.flicker > 0 ? cell(view.flicker) : "");
+        }
     return text;
 }
 
-// All candidates were seen alike at a glance, so there they can be compared.
-std::string glanceFront(const Choice& choice, double least) {
-    std::vector<ParetoPoint> points;
-    for (const Candidate& candidate : choice.candidates)
-        points.push_back({std::max(candidate.glanceMilliseconds, least), candidate.glanceRmse,
-                          nameOf(candidate)});
+std::string facts(const SweepStudy& study, const Budget& budget, const Choice& choice) {
+    const Headline headline = headlineOf(study, budget, choice);
+    nlohmann::ordered_json root;
+    root["formatVersion"] = 1;
+    root["asked"] = inWords(budget);
+    root["answer"] = headline.answer;
+    root["reason"] = headline.reason;
+    root["chosen"] = choice.chosen
+                         ? nlohmann::ordered_json(nameOf(choice.candidates[*choice.chosen]))
+                         : nlohmann::ordered_json();
+    root["confidence"] = boundLevel;
+    root["size"] = {study.sizes.front().width, study.sizes.front().height};
+    const SweepMachine& machine = choice.machine;
+    root["machine"] = {{"vendor", machine.vendor},       {"renderer", machine.renderer},
+                       {"glVersion", machine.glVersion}, {"processor", machine.processor},
+                       {"clocks", machine.clocks},       {"method", machine.method}};
+    root["program"] = machine.program;
+    root["date"] = machine.date;
+    root["seconds"] = choice.seconds;
+    return root.dump(2) + "\n";
+}
+
+std::string line(const Candidate& candidate, const std::string& words) {
+    return fmt::format("  {:<34} {:>8.3g} ms  {}\n", nameOf(candidate), costOf(candidate), words);
+}
+
+// The candidates that would add something: those dearer than the chosen one that are better than
+// it and than any between, measured where it was, or else at a glance; those that failed left out.
+std::string dearerOnes(const Choice& choice) {
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    double measured = chosen.rmse, glanced = chosen.glanceRmse;
     std::string text;
-    for (const std::size_t i : paretoFront(points))
-        text += fmt::format("{} {}\n", points[i].milliseconds, points[i].error);
-    return text;
-}
-
-struct Series {
-    std::string style, title, data; // data: gnuplot's lines
-};
-
-// What has no data is left out: gnuplot ends with a segmentation fault where all of a series is
-// NaN.
-std::string plotOf(std::span<const Series> all) {
-    std::string plots, data;
-    for (const Series& series : all) {
-        if (series.data.empty())
+    for (const Candidate& candidate : choice.candidates) {
+        const bool atAGlance = candidate.rung == Rung::glance;
+        const double rmse = atAGlance ? candidate.glanceRmse : candidate.rmse;
+        double& best = atAGlance ? glanced : measured;
+        if (costOf(candidate) <= costOf(chosen) || !(rmse < best) ||
+            (!atAGlance && !candidate.verdict.empty()))
             continue;
-        plots +=
-            fmt::format("{} '-' {} {}", plots.empty() ? "plot" : ",", series.style,
-                        series.title.empty() ? "notitle" : "title " + gnuplotText(series.title));
-        data += series.data + "e\n";
+        best = rmse;
+        text += line(candidate, atAGlance ? fmt::format("RMSE {:.3f} at a glance, not {:.3f}", rmse,
+                                                        chosen.glanceRmse)
+                                          : fmt::format("RMSE {:.3f}", rmse));
     }
-    return plots + "\n" + data;
+    return text.empty() ? "Nothing dearer adds anything.\n"
+                        : "What dearer ones would add:\n" + text;
 }
 
-Figure figureOf(const SweepStudy& study, const Budget& budget, const Choice& choice) {
-    double least = 1e9;
+// Candidates with why they fell out: each on a line of its own, or together those of one reason.
+std::string reasons(const std::vector<const Candidate*>& candidates) {
+    std::vector<std::pair<std::string, std::vector<const Candidate*>>> byVerdict;
+    for (const Candidate* candidate : candidates) {
+        const std::string& verdict =
+            candidate->verdict.empty() ? "dearer than others that failed" : candidate->verdict;
+        auto known = std::find_if(byVerdict.begin(), byVerdict.end(),
+                                  [&](const auto& each) { return each.first == verdict; });
+        if (known == byVerdict.end())
+            known = byVerdict.insert(known, {verdict, {}});
+        known->second.push_back(candidate);
+    }
+    std::string text;
+    for (const auto& [verdict, some] : byVerdict) {
+        if (some.size() == 1) {
+            text += line(*some.front(), verdict);
+            continue;
+        }
+        std::string names;
+        for (const Candidate* candidate : some)
+            names += (names.empty() ? "" : ", ") + nameOf(*candidate);
+        text += "  " + verdict + ":\n";
+        for (const std::string& part : wrapped(names, 96))
+            text += "    " + part + "\n";
+    }
+    return text;
+}
+
+// Why cheaper ones were not chosen; asked for the best, why better ones were not.
+std::string othersNot(const Budget& budget, const Choice& choice) {
+    std::vector<const Candidate*> others;
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    for (const Candidate& candidate : choice.candidates) {
+        const bool better = budget.best ? candidate.rung != Rung::glance &&
+                                              worth(budget, candidate) < worth(budget, chosen)
+                                        : costOf(candidate) < costOf(chosen);
+        if (better && !candidate.verdict.empty())
+            others.push_back(&candidate);
+    }
+    return others.empty() ? ""
+                          : fmt::format("{} ones, and why not:\n{}",
+                                        budget.best ? "Better" : "Cheaper", reasons(others));
+}
+
+std::string alikeOnes(const Budget& budget, const Choice& choice) {
+    std::string text;
+    for (const std::size_t i : choice.alike)
+        text += line(choice.candidates[i],
+                     fmt::format("{} {:.4g}", budget.best->spelt,
+                                 meanOf(choice.candidates[i].views, budget.best->value)));
+    return text.empty() ? "" : "Those that the views do not tell from it:\n" + text;
+}
+
+// When nothing was found: what was measured, the nearest first, and then the rest.
+std::string nearestOnes(const Budget& budget, const Choice& choice) {
+    std::string text = "Nearest first:\n";
+    for (const Candidate* candidate : nearestFirst(budget, choice)) {
+        text += line(*candidate, candidate->verdict);
+        if (const std::string words = whatWouldAdmit(budget, *candidate); !words.empty())
+            text += fmt::format("  {:>37} {}\n", "", words);
+    }
+    std::vector<const Candidate*> others;
     for (const Candidate& candidate : choice.candidates)
-        if (candidate.glanceMilliseconds > 0)
-            least = std::min(least, candidate.glanceMilliseconds);
-    least /= 2;
-    Figure figure{"choice", "Time against error of the candidates, and the choice", "", 8, 5.5};
-    figure.script = fmt::format(
-        "set logscale x\nset xlabel {}\nset ylabel {}\nset key outside below\nset bmargin 7\nset "
-        "grid lc rgb "
-        "'#dddddd'\nset yrange [0:*]\nset xrange [{}:*]\n",
-        gnuplotText(fmt::format("milliseconds at {} x {} (logarithmic; free ones at the left edge)",
-                                study.sizes.front().width, study.sizes.front().height)),
-        gnuplotText("RMSE of matched visibility"), least * 0.9);
-    if (budget.rmse)
-        figure.script += fmt::format("set arrow from graph 0, first {0} to graph 1, first {0} "
-                                     "nohead dashtype 2 lc rgb '#D55E00'\nset label {1} at graph "
-                                     "0.99, first {0} right offset 0, 0.6 tc rgb '#D55E00'\n",
-                                     *budget.rmse, gnuplotText("budget"));
-    const auto all = [](const Candidate&) { return true; };
-    const auto failed = [](const Candidate& candidate) {
-        return candidate.rung == Rung::held_out && !isFinalist(candidate);
-    };
-    const std::string chosen = lines(
-        choice, least, [](const Candidate& candidate) { return candidate.rung == Rung::chosen; });
-    const Series series[] = {
-        {"using 1:2 with steps lc rgb '#888888'", "Pareto front at a glance",
-         glanceFront(choice, least)},
-        {"using 1:2 with points pt 6 ps 0.8 lc rgb '#888888'", "at a glance: small, one view",
-         lines(choice, least, all)},
-        {"using 1:3:3:5 with yerrorbars pt 7 ps 1 lc rgb '#0072B2'",
-         "RMSE on held-out views, mean and 95 % bound", lines(choice, least, failed)},
-        {"using 6:3:3:5 with yerrorbars pt 5 ps 1 lc rgb '#E69F00'",
-         "finalists: also time on held-out views", lines(choice, least, isFinalist)},
-        {"using 6:3 with points pt 7 ps 1.8 lc rgb '#009E73'", "chosen", chosen},
-        {"using 6:3:4 with labels left offset 1.2, 0", "", chosen}};
-    figure.script += plotOf(series);
-    return figure;
+        if (candidate.rung == Rung::glance)
+            others.push_back(&candidate);
+    return text + (others.empty() ? "" : "Not measured:\n" + reasons(others));
 }
 
 } // namespace
 
 std::string choiceText(const SweepStudy& study, const Budget& budget, const Choice& choice) {
-    std::string text = fmt::format(
-        "{} candidates, {} held-out views, {}; {:.0f} s besides references of held-out views\n",
-        choice.candidates.size(), study.match.test.size(), limitsOf(budget), choice.seconds);
-    const auto add = [&](const Candidate& candidate, const std::string& words) {
-        text += fmt::format("  {:<34} {:>8.3g} ms  {}", nameOf(candidate),
-                            candidate.glanceMilliseconds, words);
-        text += isFinalist(candidate)
-                    ? fmt::format("; {:.3g} ms on held-out views\n", candidate.milliseconds)
-                    : "\n";
-    };
-    if (!choice.chosen) {
-        text += "None meets the budget. Why, the cheapest at a glance first:\n";
-        for (const Candidate& candidate : choice.candidates)
-            add(candidate, candidate.verdict);
-        return text;
-    }
-    const Candidate& chosen = choice.candidates[*choice.chosen];
-    text += fmt::format("Chosen: {}, {:.3g} ms, RMSE {:.3f} on held-out views; at a glance {:.3g} "
-                        "ms, RMSE {:.3f}\n",
-                        nameOf(chosen), chosen.milliseconds, chosen.rmse, chosen.glanceMilliseconds,
-                        chosen.glanceRmse);
-    text += *choice.chosen ? "Cheaper ones at a glance, and why not:\n" : "";
-    for (std::size_t i = 0; i < *choice.chosen; ++i)
-        add(choice.candidates[i], choice.candidates[i].verdict);
-    const auto more = dearer(choice);
-    text += more.empty() ? "Nothing dearer adds anything.\n"
-                         : "What dearer ones would add at a glance:\n";
-    for (const Candidate* candidate : more)
-        add(*candidate, fmt::format("RMSE {:.3f}", candidate->glanceRmse));
-    return text;
-}
-
-void requireOwnChoice(const std::filesystem::path& folder) {
-    const std::filesystem::path path = folder / "choice.toml";
-    if (!std::filesystem::exists(std::filesystem::symlink_status(path)))
-        return;
-    if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(path)) ||
-        !readFile(path).starts_with(fragmentHead))
-        throw Error(
-            {path.string(), 0, 0, {}},
-            "expected a choice that obscura-bench choose wrote, which a new one replaces, or "
-            "nothing; found something else. Move it, or name another folder by --out");
-}
-
-void writeChoice(const std::filesystem::path& folder, const SweepStudy& study, const Budget& budget,
-                 const Choice& choice) {
-    writeFile(folder / "choice.csv", table(choice));
-    requireOwnChoice(folder);
-    if (choice.chosen)
-        writeFile(folder / "choice.toml",
-                  fragment(study, budget, choice.candidates[*choice.chosen]));
+    const Headline headline = headlineOf(study, budget, choice);
+    std::string text = fmt::format("{}\n{}\n", headline.answer, headline.reason);
+    if (!choice.chosen)
+        text += nearestOnes(budget, choice);
     else
-        std::filesystem::remove(folder / "choice.toml"); // ours, of an earlier budget
-    writeFigures(folder, {figureOf(study, budget, choice)});
+        text += alikeOnes(budget, choice) + othersNot(budget, choice) +
+                (budget.best ? "" : dearerOnes(choice));
+    return text + fmt::format("The search took {:.0f} s besides references of held-out views.\n",
+                              choice.seconds);
+}
+
+void requireOwnChoice(const fs::path& folder) {
+    const std::pair<const char*, std::string_view> ours[] = {{"choice.toml", fragmentHead},
+                                                             {"study.toml", studyTextHead}};
+    for (const auto& [name, head] : ours) {
+        const fs::path path = folder / name;
+        if (!fs::exists(fs::symlink_status(path)))
+            continue;
+        if (!fs::is_regular_file(fs::symlink_status(path)) || !readFile(path).starts_with(head))
+            throw Error({path.string(), 0, 0, {}},
+                        "expected a file that obscura-bench choose wrote, which a new one "
+                        "replaces, or nothing; found something else. Move it, or name another "
+                        "folder by --out");
+    }
+}
+
+void writeChoice(const fs::path& folder, const SweepStudy& study, const fs::path& environments,
+                 const Budget& budget, const Choice& choice) {
+    requireOwnChoice(folder);
+    writeFile(folder / "choice.csv", table(choice));
+    writeFile(folder / "choice-views.csv", viewsTable(study, budget, choice));
+    writeFile(folder / "choice.json", facts(study, budget, choice));
+    writeFile(folder / "study.toml", studyText(study, environments.string()));
+    if (choice.chosen)
+        writeFile(folder / "choice.toml", fragment(study, budget, choice));
+    else
+        fs::remove(folder / "choice.toml"); // ours, of an earlier budget
+    if (!choice.candidates.empty())
+        writeFigures(folder, {choiceFigure(study, budget, choice)});
 }
 
 } // namespace obscura

@@ -5,6 +5,7 @@
 #include "bench/measure/normals.h"
 #include "bench/measure/rays.h"
 #include "bench/measure/tested_technique.h"
+#include "bench/measure/thickness.h"
 #include "bench/measure/timing.h"
 #include "gl/context.h"
 
@@ -83,6 +84,19 @@ int runNormals(const Options& options) {
     return 0;
 }
 
+int runThickness(const Options& options) {
+    const Scene scene = sceneOf(options);
+    const gl::Context context;
+    const Subject subject(scene);
+    const Probe probe(subject, cameraOf(options), options.width, options.height, Normals::smooth,
+                      options.settings.seed);
+    for (const ThicknessEffect& effect : measureThickness(scene, probe, traceSettingsOf(options)))
+        fmt::print("thickness {}: RMSE {:.4f}, bias {:+.4f}, SSIM {:.3f}\n",
+                   effect.radii ? fmt::format("{:g} R", *effect.radii) : "infinite",
+                   effect.error.rmse, effect.error.bias, effect.error.ssim);
+    return 0;
+}
+
 int runPasses(const Options& options) {
     const Scene scene = sceneOf(options);
     const gl::Context context;
@@ -126,9 +140,11 @@ std::vector<Command> viewCommands(CLI::App& app) {
     CLI::App* ray = app.add_subcommand("rays", "our ray tracing beside a bare Embree loop");
     CLI::App* normal =
         app.add_subcommand("normals", "what face, smooth and mapped normals do to visibility");
+    CLI::App* thick = app.add_subcommand(
+        "thickness", "how far the depth buffer's reference is from the scene's, by its thickness");
     CLI::App* pass = app.add_subcommand(
         "passes", "what each pass of some techniques takes, all timed in turn on one view");
-    for (CLI::App* command : {ray, normal, pass}) {
+    for (CLI::App* command : {ray, normal, thick, pass}) {
         command
             ->add_option("--scene", options->scene, "built-in scene or file in the scenes folder")
             ->capture_default_str();
@@ -146,7 +162,7 @@ std::vector<Command> viewCommands(CLI::App& app) {
             ->check(numberFrom(1e-4, 1e4))
             ->capture_default_str();
     }
-    for (CLI::App* command : {ray, normal}) {
+    for (CLI::App* command : {ray, normal, thick}) {
         command->add_option("--rays", options->settings.rays, "per pixel")->capture_default_str();
         command->add_option("--integral", options->integral)
             ->check(CLI::IsMember(integralNames()))
@@ -160,6 +176,7 @@ std::vector<Command> viewCommands(CLI::App& app) {
         ->capture_default_str();
     return {{ray, [options] { return runRays(*options); }},
             {normal, [options] { return runNormals(*options); }},
+            {thick, [options] { return runThickness(*options); }},
             {pass, [options] { return runPasses(*options); }}};
 }
 

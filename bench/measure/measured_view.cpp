@@ -40,7 +40,8 @@ MeasuredView::MeasuredView(const Subject& subject, LazyTracer& tracer, const Swe
                            const Folders& folders, const std::string& sceneSha256,
                            const std::filesystem::path& cache, const TruthProgress& progress)
     : view_(view), size_(size),
-      probe_(subject, view.camera, size.width, size.height, study.match.normals, study.match.seed) {
+      probe_(subject, view.camera, size.width, size.height, study.match.normals, study.match.seed),
+      display_(study.display) {
     const double cost = truthCost(size, study.match.rays);
     double before = 0;
     const auto truth = [&](Truth kind) {
@@ -67,7 +68,7 @@ ViewErrors MeasuredView::errorsOf(const Image& visibility) {
     if (depthTruth_)
         errors.depth = visibilityError(visibility, *depthTruth_, probe_.shown());
     if (lit_)
-        errors.lit = litError(lit_->image(visibility), litTruth_, probe_.shown());
+        errors.lit = litError(lit_->image(visibility), litTruth_, probe_.shown(), display_);
     return errors;
 }
 

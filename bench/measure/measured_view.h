@@ -54,6 +54,7 @@ class MeasuredView {
     std::optional<Image> depthTruth_;
     std::optional<LitView> lit_;
     Image8 litTruth_;
+    Display display_;
 };
 
 } // namespace obscura

@@ -73,6 +73,14 @@ std::vector<double> totalsOf(const Runner& runner, std::size_t frames) {
     return totals;
 }
 
+// How well a median repeats: what differs between two halves of the same rounds is noise.
+double oddToEven(const std::vector<double>& times) {
+    std::vector<double> halves[2];
+    for (std::size_t round = 0; round < times.size(); ++round)
+        halves[round % 2].push_back(times[round]);
+    return summaryOf(std::move(halves[1])).median / summaryOf(std::move(halves[0])).median;
+}
+
 TechniqueTime timeOf(const Runner& runner) {
     TechniqueTime time;
     time.frames = static_cast<int>(runner.pieces.size());
@@ -134,6 +142,7 @@ class Group {
                     {gbuffer_.begin(), gbuffer_.begin() + static_cast<std::ptrdiff_t>(rounds)})
                     .median;
             times.back().starcraft = summaryOf(totalsOf(runners_.front(), rounds)).median;
+            times.back().starcraftRepeat = oddToEven(totalsOf(runners_.front(), rounds));
         }
         return times;
     }

@@ -33,8 +33,9 @@ struct TechniqueTime {
     std::vector<PassTime> passes;
     double gbuffer =
         0; // median of the G-buffer pass in the same rounds: depth, albedo, normals; ms
-    double starcraft = 0; // median of `starcraft` with 16 samples in the same rounds; ms
-    double bytes = 0;     // of GPU memory that the technique adds
+    double starcraft = 0;       // median of `starcraft` with 16 samples in the same rounds; ms
+    double starcraftRepeat = 1; // its median in odd rounds over that in even ones
+    double bytes = 0;           // of GPU memory that the technique adds
 };
 
 // Called after each frame with the share done, 0 ... 1.

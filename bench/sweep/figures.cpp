@@ -65,14 +65,16 @@ std::vector<Figure> sweepFigures(const Sweep& sweep) {
     const std::vector<SweepGroup> groups = groupsOf(sweep.rows);
     const std::vector<std::string> techniques = techniquesOf(sweep.rows);
     std::vector<Figure> figures;
-    for (std::size_t i = 0; i < groups.size(); ++i)
-        if (const std::string script = scatterScript(
-                scatterOf(groups[i], errorMeasures().front(), techniques), techniques);
-            !script.empty())
-            figures.push_back({format("scatter-{}-{}-{}x{}", i + 1, plainName(groups[i].scene),
-                                      groups[i].width, groups[i].height),
-                               titleOf(groups[i]) + ": milliseconds against matched RMSE", script,
-                               7.2, 4.4});
+    for (const ErrorMeasure& measure : errorMeasures())
+        for (std::size_t i = 0; i < groups.size() && !measure.figure.empty(); ++i)
+            if (const std::string script =
+                    scatterScript(scatterOf(groups[i], measure, techniques), techniques);
+                !script.empty())
+                figures.push_back(
+                    {format("{}-{}-{}-{}x{}", measure.figure, i + 1, plainName(groups[i].scene),
+                            groups[i].width, groups[i].height),
+                     titleOf(groups[i]) + ": milliseconds against " + measure.name, script, 7.2,
+                     4.4});
     if (!growthOf(sweep.growth).empty())
         figures.push_back(growthFigure(sweep));
     return figures;

@@ -7,7 +7,8 @@
 
 namespace obscura {
 
-// The page's charts for papers: how time and matched RMSE trade in each scene and resolution, and
+// The page's charts for papers: how time and the error trade in each scene and resolution, matched
+// RMSE and predicted JOD, and
 // how cost grows.
 std::vector<Figure> sweepFigures(const Sweep& sweep);
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int newestVersion = 2; // of the folder's files; version 1 said none
+constexpr int newestVersion = 3; // of the folder's files; version 1 said none
 
 // Every field with its name, once for writing and reading; Row may be const.
 
@@ -39,7 +39,9 @@ void eachError(Row& row, Visit& visit) {
     eachErrorField("depth_raw", row.depthRaw, visit);
     eachErrorField("depth_matched", row.depthMatched, visit);
     eachErrorField("lit_raw", row.litRaw, visit);
+    visit("lit_raw_jod", row.litRaw.jod);
     eachErrorField("lit_matched", row.litMatched, visit);
+    visit("lit_matched_jod", row.litMatched.jod);
 }
 
 template <typename Row, typename Visit>
@@ -53,6 +55,7 @@ void eachCost(Row& row, Visit& visit) {
     visit("gbuffer_median_ms", row.gbuffer);
     visit("ratio_to_gbuffer", row.toGbuffer);
     visit("ratio_to_starcraft_16", row.toStarcraft);
+    visit("starcraft_16_odd_to_even", row.starcraftRepeat);
     visit("bytes_per_pixel", row.bytes);
     visit("fetches_per_pixel", row.fetches);
 }
@@ -94,6 +97,7 @@ void eachField(Machine& machine, Visit visit) {
     visit("method", machine.method);
     visit("program", machine.program);
     visit("study", machine.study);
+    visit("display", machine.display);
     visit("clocks", machine.clocks);
     visit("date", machine.date);
 }
@@ -188,6 +192,8 @@ SweepMachine readMachine(const fs::path& path) {
                                     "sweep, and reads it",
                                     newestVersion, machine.formatVersion));
         eachField(machine, [&](const std::string& name, std::string& value) {
+            if (name == "display" && machine.formatVersion < 3)
+                return;
             if (!root.contains(name) || !root[name].is_string())
                 throw Error({file, 0, 0, name},
                             fmt::format("expected a text of this name, found {}",

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "bench/sweep/files.h"
+#include "bench/sweep/page_front_script.h"
 #include "bench/sweep/page_style.h"
 #include "bench/sweep/page_tables.h"
 #include "gl/context.h"
@@ -44,20 +45,29 @@ std::set<std::size_t> onAnyFront(const SweepGroup& group) {
     return points;
 }
 
+// Where a measure is chosen, its chart, and of the table its column and the rows of its front.
+std::string styleOf(const std::string& chosen, std::size_t measure) {
+    return format("{0} .m{1} {{ display: block; }} {0} .front .c{1} {{ display: table-cell; }} "
+                  "{0} .front tr.f{1}, {0} .front tr.n{1} {{ display: table-row; }} "
+                  "{0} .front tr.n{1} {{ counter-increment: none; }} "
+                  "{0} .front tr.n{1} .rank::before {{ content: '≈'; }}\n",
+                  chosen, measure);
+}
+
 // Shows what the chosen buttons say; an error that has only one reference, whichever is chosen.
 std::string measureStyle() {
     const std::vector<std::string> names = buttonsOf(&ErrorMeasure::name),
                                    references = buttonsOf(&ErrorMeasure::reference);
-    std::string style;
+    std::string style = format("@supports not selector(:has(a)) {{ {} }}\n", styleOf("body", 0));
     for (std::size_t m = 0; m < errorMeasures().size(); ++m) {
         const ErrorMeasure& measure = errorMeasures()[m];
         const auto count =
             std::count_if(errorMeasures().begin(), errorMeasures().end(),
                           [&](const ErrorMeasure& other) { return other.name == measure.name; });
-        style += format("body:has(#e{}:checked)", indexOf(names, measure.name));
+        std::string chosen = format("body:has(#e{}:checked)", indexOf(names, measure.name));
         if (count > 1)
-            style += format(":has(#r{}:checked)", indexOf(references, measure.reference));
-        style += format(" .m{} {{ display: block; }}\n", m);
+            chosen += format(":has(#r{}:checked)", indexOf(references, measure.reference));
+        style += styleOf(chosen, m);
     }
     return style;
 }
@@ -122,23 +132,42 @@ std::string workLegend() {
     return html + "</p>\n";
 }
 
+std::string nearSentence(const SweepGroup& group, const std::vector<ParetoPoint>& points) {
+    std::vector<std::string> names;
+    for (const std::size_t i : nearFront(points, uncertaintyOf(group)))
+        names.push_back(points[i].name);
+    return format(
+        " <span class=\"within\"{}>On the front within the uncertainty of time (±{:.1f} %): "
+        "<span class=\"names\">{}</span>.</span>",
+        names.empty() ? " hidden=\"hidden\"" : "", 100 * uncertaintyOf(group),
+        escaped(fmt::format("{}", fmt::join(names, "; "))));
+}
+
 std::string frontSentence(const SweepGroup& group, const ErrorMeasure& measure) {
     const auto points = paretoPoints(group, measure);
     const auto unknown = std::count_if(points.begin(), points.end(), [](const ParetoPoint& point) {
         return std::isnan(point.milliseconds + point.error);
     });
-    return format("{}, to the {} reference: {} of {} configurations are on the front: "
-                  "nothing else measured is as fast and as close.{}",
-                  measure.name, measure.reference, paretoFront(points).size(), points.size(),
-                  unknown ? format(" {} without this error are left out.", unknown) : "");
+    return format(
+        "{}, to the {} reference: <span class=\"count\">{} of {} configurations</span> are "
+        "on the front: nothing else <span class=\"among\">measured</span> is as fast and "
+        "as close.{}{}",
+        measure.name, measure.reference, paretoFront(points).size(), points.size(),
+        unknown ? format(" {} without this error are left out.", unknown) : "",
+        nearSentence(group, points));
 }
 
-// The chart, or the front's table, of every measure; style shows the chosen one.
-template <typename Content>
-std::string eachMeasure(const Content& content) {
+// The charts of all measures; style shows the chosen one's.
+std::string charts(const SweepGroup& group, const std::vector<std::string>& techniques,
+                   std::size_t firstId) {
     std::string html;
-    for (std::size_t m = 0; m < errorMeasures().size(); ++m)
-        html += format("<div class=\"m m{}\">{}</div>\n", m, content(errorMeasures()[m]));
+    for (std::size_t m = 0; m < errorMeasures().size(); ++m) {
+        const ErrorMeasure& measure = errorMeasures()[m];
+        html +=
+            format("<div class=\"m m{}\"><figure>{}<figcaption>{}</figcaption></figure></div>\n", m,
+                   scatterSvg(scatterOf(group, measure, techniques), techniques.size(), firstId),
+                   frontSentence(group, measure));
+    }
     return html;
 }
 
@@ -155,30 +184,24 @@ std::string panel(const SweepGroup& group, const std::vector<std::string>& techn
     return html + "</div>\n";
 }
 
-std::string viewsWarning(const SweepGroup& group) {
-    const std::vector<std::string> names = lackingViews(group);
-    if (names.empty())
-        return {};
-    return format("<p class=\"warning\">Not comparable with the others, because measured on fewer "
-                  "views: {}.</p>\n",
-                  escaped(fmt::format("{}", fmt::join(names, "; "))));
+std::string warnings(const SweepGroup& group) {
+    std::string html;
+    if (const std::vector<std::string> names = lackingViews(group); !names.empty())
+        html += format("<p class=\"warning\">Not comparable with the others, because measured on "
+                       "fewer views: {}.</p>\n",
+                       escaped(fmt::format("{}", fmt::join(names, "; "))));
+    if (const std::string warning = warningOf(group.straying); !warning.empty())
+        html += format("<p class=\"warning\">{}</p>\n", escaped(warning));
+    return html;
 }
 
 std::string groupHtml(const SweepGroup& group, const std::vector<std::string>& techniques,
                       std::size_t firstId) {
-    std::string html = format("<section class=\"points\" id=\"g{}\">\n", firstId) +
-                       element("h2", titleOf(group)) + viewsWarning(group);
-    html +=
-        "<div class=\"chart\"><div>" + eachMeasure([&](const ErrorMeasure& measure) {
-            return "<figure>" +
-                   scatterSvg(scatterOf(group, measure, techniques), techniques.size(), firstId) +
-                   "<figcaption>" + frontSentence(group, measure) + "</figcaption></figure>";
-        });
-    html += legend(group, techniques) + "</div>\n" + panel(group, techniques, firstId) + "</div>\n";
-    html += eachMeasure([&](const ErrorMeasure& measure) {
-        return frontTable(group, measure, techniques, firstId);
-    });
-    return html + workLegend() + "<details><summary>All configurations by matched RMSE</summary>" +
+    return format("<section class=\"points\" id=\"g{}\">\n", firstId) +
+           element("h2", titleOf(group)) + warnings(group) + "<div class=\"chart\"><div>" +
+           charts(group, techniques, firstId) + legend(group, techniques) + "</div>\n" +
+           panel(group, techniques, firstId) + "</div>\n" + frontTable(group, techniques, firstId) +
+           workLegend() + "<details><summary>All configurations by matched RMSE</summary>" +
            rankingTable(group, techniques, firstId) + "</details></section>\n";
 }
 
@@ -236,6 +259,12 @@ std::string introduction(const Sweep& sweep) {
                             machine.renderer, machine.vendor, machine.glVersion, machine.processor,
                             machine.clocks.empty() ? "clocks unknown" : "clocks " + machine.clocks,
                             machine.method, machine.date));
+    if (!machine.display.empty())
+        html += element("p", format("JOD (just-objectionable differences) are predicted, by "
+                                    "ColorVideoVDP, for a person before this screen: {}. 10 is no "
+                                    "difference from the lit truth; at 9, 75 of 100 would prefer "
+                                    "the truth. Nobody has looked.",
+                                    machine.display));
     html += format("<p class=\"aside hash\">{}; study {}</p>\n", escaped(machine.program),
                    escaped(machine.study));
     if (const std::string lacking = incompleteness(sweep); !lacking.empty())
@@ -253,7 +282,9 @@ std::string introduction(const Sweep& sweep) {
     return html +
            "<p>Each mark is one configuration: its milliseconds against its error. Left and low is "
            "better; the staircase is the Pareto front, and all in its shade is beaten by something "
-           "in both. Point, tap or tab to a mark for all its numbers.</p>\n"
+           "in both, in the lighter shade by no more than times are uncertain. Without the "
+           "techniques that are switched off, the front is that of the others. Point, tap or tab "
+           "to a mark for all its numbers.</p>\n"
            "<details><summary>What exactly is drawn</summary><p>Milliseconds are those of the "
            "technique's own passes: the median over views of each view's median frame. Thin bars "
            "go from the 5th to the 95th percentile of frames, also medians over views. Where a "
@@ -261,7 +292,8 @@ std::string introduction(const Sweep& sweep) {
            "was faster or slower for a while, times are scaled by starcraft's in the same rounds; "
            "sweep.csv has them as they were. What took no time stands on the left border. RMSE is "
            "the "
-           "root of the mean square over views, all other errors are means over views; bias is the "
+           "root of the mean square over views, all other errors and predicted JOD are means over "
+           "views; bias is the "
            "mean of its size, without its sign, which is above 0 where a technique is too dark. "
            "Matched errors "
            "are what remains after each technique was fitted on training views. The full reference "
@@ -324,7 +356,8 @@ std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
         firstId += group.points.size();
     }
     html += rateSection(sweep.rows) + growthSection(sweep);
-    return html + format("<script>{}</script>\n</body>\n</html>\n", sweepPageScript);
+    return html +
+           format("<script>{}{}</script>\n</body>\n</html>\n", sweepPageScript, sweepFrontScript);
 }
 
 } // namespace obscura

@@ -23,7 +23,6 @@ small { color: #555; font-size: .85em; }
 .legend label { border-color: #ddd; padding: 0 .4rem; font-size: .8rem; }
 .key { width: 1em; height: 1em; vertical-align: -.12em; overflow: visible; }
 .m { display: none; }
-@supports not selector(:has(a)) { .m0 { display: block; } }
 .chart { display: grid; grid-template-columns: minmax(0, 1fr) 25rem; gap: 1.2rem; }
 .chart figure { margin: 0; }
 figcaption { font-size: .88rem; color: #555; }
@@ -49,7 +48,7 @@ svg text { font-size: 13px; fill: #333; }
 .axis .minor { stroke: #f0f0f0; }
 .x { text-anchor: middle; } .y { text-anchor: end; }
 path.front { stroke: #333; stroke-width: 1.5; fill: none; }
-.dominated { fill: #000; fill-opacity: .035; }
+.dominated, .unsure { fill: #000; fill-opacity: .03; }
 .threads path, .growth path { stroke: currentColor; stroke-width: 1.2; fill: none; opacity: .35; }
 .growth path { opacity: .7; }
 .bars path { stroke: currentColor; stroke-width: 1; opacity: .8; }
@@ -57,10 +56,15 @@ path.front { stroke: #333; stroke-width: 1.5; fill: none; }
 a { color: inherit; }
 .mark { outline: none; }
 .mark.best { stroke: #111; stroke-width: 1.4; }
+.mark.near { stroke: #111; stroke-width: 1.1; stroke-dasharray: 2 1.6; }
 .mark.on use, .mark:focus use, .mark:hover use { stroke: #111; stroke-width: 2.4; transform: scale(1.35); }
 .numbers path { stroke: currentColor; stroke-width: .8; opacity: .6; }
 .numbers text { text-anchor: middle; font-weight: 600; font-size: 12px; }
 text.name { font-weight: 600; fill: #111; paint-order: stroke; stroke: white; stroke-width: 5px; pointer-events: none; }
+table.front tbody { counter-reset: rank; }
+.front tbody tr { display: none; counter-increment: rank; }
+.front .c { display: none; }
+.rank::before { content: counter(rank); }
 .front td, .front tbody th { vertical-align: middle; padding: .15rem .5rem; }
 .ranking th button { font: inherit; border: 0; background: none; padding: 0; cursor: pointer; text-align: inherit; }
 summary { cursor: pointer; margin: .5rem 0; }
@@ -153,11 +157,9 @@ for (const link of all('section.points a')) {
   });
 }
 for (const section of all('section.points')) {
-  const links = [...section.querySelectorAll('.m0 .front a')];
+  const links = [...section.querySelectorAll('.front .f0 a')];
   if (links.length) show(links[Math.floor(links.length / 2)], false);
 }
-document.getElementById('none').addEventListener('click', () =>
-  all('.techniques input').forEach(box => { box.checked = false; }));
 
 const valueIn = (row, column) => {
   const text = row.cells[column].textContent.trim();

@@ -73,7 +73,20 @@ std::string wide(const std::string& head, const std::string& body, const std::st
 
 std::string errorLine(const std::string& name, const PictureError& error) {
     return format("<tr><th scope=\"row\">{}</th>", name) + number(error.rmse) + number(error.bias) +
-           number(error.ssim, 4) + number(error.flip) + "</tr>";
+           number(error.ssim, 4) + number(error.flip) + number(error.jod) + "</tr>";
+}
+
+// Of each point: "f3" where it is on the front of the measure 3, "n3" where it is near.
+std::vector<std::string> frontClasses(const SweepGroup& group) {
+    std::vector<std::string> classes(group.points.size());
+    for (std::size_t m = 0; m < errorMeasures().size(); ++m) {
+        const auto points = paretoPoints(group, errorMeasures()[m]);
+        for (const std::size_t i : paretoFront(points))
+            classes[i] += format(" f{}", m);
+        for (const std::size_t i : nearFront(points, uncertaintyOf(group)))
+            classes[i] += format(" n{}", m);
+    }
+    return classes;
 }
 
 } // namespace
@@ -84,26 +97,27 @@ std::string markHtml(std::size_t technique) {
                   technique);
 }
 
-std::string frontTable(const SweepGroup& group, const ErrorMeasure& measure,
-                       const std::vector<std::string>& techniques, std::size_t firstId) {
-    // The chosen error, then the two that every table has.
-    std::vector<const ErrorMeasure*> shown{&measure};
-    for (const ErrorMeasure& other : errorMeasures())
-        if (other.always && &other != &measure)
-            shown.push_back(&other);
+std::string frontTable(const SweepGroup& group, const std::vector<std::string>& techniques,
+                       std::size_t firstId) {
+    const auto measures = errorMeasures();
+    const auto cellClass = [&](std::size_t m) {
+        return measures[m].always ? std::string("number") : format("number c c{}", m);
+    };
     std::string head = "<tr>" + numberHeader("") + header("On the front") + costHeaders() +
                        header("time spent"),
                 body;
-    for (const ErrorMeasure* one : shown)
-        head += numberHeader(format("{}, {}", one->name, one->reference));
-    int rank = 0;
-    for (const std::size_t i : paretoFront(paretoPoints(group, measure))) {
+    for (std::size_t m = 0; m < measures.size(); ++m)
+        head += format("<th scope=\"col\" class=\"{}\">{}, {}</th>", cellClass(m), measures[m].name,
+                       measures[m].reference);
+    const std::vector<std::string> places = frontClasses(group);
+    for (std::size_t i = 0; i < group.points.size(); ++i) {
         const SweepRow& point = group.points[i];
-        body += "<tr>" + number(format("{}", ++rank)) +
+        body += format("<tr class=\"{}\"><td class=\"number rank\"></td>", places[i]) +
                 link(point, indexOf(techniques, point.technique), firstId + i) + costs(point) +
                 format("<td>{}</td>", workBar(point));
-        for (const ErrorMeasure* one : shown)
-            body += number(one->of(point));
+        for (std::size_t m = 0; m < measures.size(); ++m)
+            body +=
+                format("<td class=\"{}\">{}</td>", cellClass(m), readable(measures[m].of(point)));
         body += format("<td><div class=\"thumb i{}\"></div></td></tr>\n", firstId + i);
     }
     return wide(head + header("visibility and its error") + "</tr>", body, "front");
@@ -129,18 +143,19 @@ std::string rankingTable(const SweepGroup& group, const std::vector<std::string>
                 link(point, indexOf(techniques, point.technique), firstId + i) +
                 number(points[i].error) + number(point.raw.rmse) + number(point.raw.bias) +
                 number(point.matched.ssim, 4) + number(point.matched.flip) +
-                number(point.litMatched.flip) + number(point.depthMatched.rmse) + costs(point) +
+                number(point.litMatched.flip) + number(point.litMatched.jod) +
+                number(point.depthMatched.rmse) + costs(point) +
                 format("<td>{}</td></tr>\n",
                        better ? escaped(points[*better].name)
                               : (std::isnan(points[i].error) ? "–" : "on the front"));
     }
-    return wide("<tr>" + numberHeader("rank") + header("Configuration") +
-                    numberHeader("RMSE, matched") + numberHeader("RMSE, raw") +
-                    numberHeader("bias, raw") + numberHeader("SSIM, matched") +
-                    numberHeader("FLIP, matched") + numberHeader("FLIP of lit, matched") +
-                    numberHeader("RMSE to depth, matched") + costHeaders() +
-                    header("better and no slower") + "</tr>",
-                body, "ranking");
+    return wide(
+        "<tr>" + numberHeader("rank") + header("Configuration") + numberHeader("RMSE, matched") +
+            numberHeader("RMSE, raw") + numberHeader("bias, raw") + numberHeader("SSIM, matched") +
+            numberHeader("FLIP, matched") + numberHeader("FLIP of lit, matched") +
+            numberHeader("predicted JOD of lit, matched") + numberHeader("RMSE to depth, matched") +
+            costHeaders() + header("better and no slower") + "</tr>",
+        body, "ranking");
 }
 
 std::string detailsOf(const SweepRow& point) {
@@ -155,7 +170,8 @@ std::string detailsOf(const SweepRow& point) {
                   readable(point.toGbuffer), readable(point.gbuffer), readable(point.toStarcraft),
                   readable(point.fetches), readable(point.bytes), workBar(point)) +
            wide("<tr>" + header("error to") + numberHeader("RMSE") + numberHeader("bias") +
-                    numberHeader("SSIM") + numberHeader("FLIP") + "</tr>",
+                    numberHeader("SSIM") + numberHeader("FLIP") + numberHeader("predicted JOD") +
+                    "</tr>",
                 errorLine("full, raw", point.raw) + errorLine("full, matched", point.matched) +
                     errorLine("depth buffer, raw", point.depthRaw) +
                     errorLine("depth buffer, matched", point.depthMatched) +

@@ -10,9 +10,11 @@ namespace obscura {
 
 // Tables of sweep.html. Points are links to their details, "#p<firstId + index>".
 
-// The configurations on one measure's front.
-std::string frontTable(const SweepGroup& group, const ErrorMeasure& measure,
-                       const std::vector<std::string>& techniques, std::size_t firstId);
+// A row for each configuration that could be on a front, by rising milliseconds, and the cells of
+// each measure ("c3"), of which the page's style shows those of the chosen one: rows of the class
+// "f3" are on the front of the measure 3, those of "n3" within the uncertainty of time.
+std::string frontTable(const SweepGroup& group, const std::vector<std::string>& techniques,
+                       std::size_t firstId);
 
 // All configurations by the default measure, and what to take instead of those off its front.
 std::string rankingTable(const SweepGroup& group, const std::vector<std::string>& techniques,

@@ -22,6 +22,11 @@ bool dominates(const ParetoPoint& one, const ParetoPoint& other);
 // stay, by name.
 std::vector<std::size_t> paretoFront(std::span<const ParetoPoint> points);
 
+// Indices of the points off the front that would be on it if each of their milliseconds were off by
+// as much as `uncertainty`, a share, each way: none dominates them even when it takes
+// (1 + uncertainty)^2 as long. In the front's order.
+std::vector<std::size_t> nearFront(std::span<const ParetoPoint> points, double uncertainty);
+
 // Of those that dominate it, the one with the least error (then the fastest): what to take instead.
 std::optional<std::size_t> dominatedBy(std::span<const ParetoPoint> points, std::size_t index);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Milliseconds {
 // Of one picture against its truth. NaN: not measured.
 struct PictureError {
     double rmse = 0, bias = 0, ssim = 0, flip = 0;
+    double jod = std::numeric_limits<double>::quiet_NaN(); // predicted, of lit images alone
 };
 
 struct SweepRow {
@@ -36,14 +38,16 @@ struct SweepRow {
     double gbuffer = 0;           // median of the same run: depth, and the normals that it reads
     double toGbuffer = 0, toStarcraft = 0; // ratios of medians in the same run; the latter to
                                            // `starcraft` with 16 samples, blurred
-    double bytes = 0;                      // of GPU memory per pixel that the technique adds
+    double starcraftRepeat = 1; // the latter's median in odd rounds over that in even ones; NaN:
+                                // not measured
+    double bytes = 0;           // of GPU memory per pixel that the technique adds
     double fetches =
         0; // of textures per pixel of the image, as declared (renderer/techniques/fetches.h)
 
     // Against rays through the whole scene, and against the same integral over the depth buffer
     // alone: visibility as the technique leaves it, and after matching (fitted on training views).
     PictureError raw, matched, depthRaw, depthMatched; // flip: of visibility shown as sRGB grey
-    PictureError litRaw, litMatched;                   // of the lit image; ssim of its luminance
+    PictureError litRaw, litMatched;                   // of the lit image; ssim of its luma
     std::string
         thumbnail; // file in the sweep's folder, or "": matched visibility, its error beside it
 };
@@ -61,8 +65,9 @@ struct SweepMachine {
     std::string vendor, renderer, glVersion, processor, clocks; // clocks: "" when unknown
     std::string method; // "timer queries" or "glFinish and steady clock", and why
     std::string program, study, date;
+    std::string display;   // in words, on which JOD is predicted; "" of folders before version 3
     int rows = 0;          // that all configurations give on all views at all sizes; 0: not known
-    int formatVersion = 2; // of the folder that was read
+    int formatVersion = 3; // of the folder that was read
 };
 
 struct Sweep {

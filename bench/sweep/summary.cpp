@@ -41,7 +41,8 @@ PictureError errorOf(Rows rows, PictureError SweepRow::*error) {
         std::copysign(mean(rows, [&](const SweepRow& row) { return std::abs((row.*error).bias); }),
                       mean(rows, [&](const SweepRow& row) { return (row.*error).bias; })),
         mean(rows, [&](const SweepRow& row) { return (row.*error).ssim; }),
-        mean(rows, [&](const SweepRow& row) { return (row.*error).flip; })};
+        mean(rows, [&](const SweepRow& row) { return (row.*error).flip; }),
+        mean(rows, [&](const SweepRow& row) { return (row.*error).jod; })};
 }
 
 std::set<std::string> viewsOf(Rows rows) {
@@ -96,8 +97,9 @@ SweepRow overViews(Rows rows) {
         point.total.*part = median(rows, [&](const SweepRow& row) { return row.total.*part; });
     for (std::size_t i = 0; i < point.work.size(); ++i)
         point.work[i] = median(rows, [&](const SweepRow& row) { return row.work[i]; });
-    for (double SweepRow::*field : {&SweepRow::gbuffer, &SweepRow::toGbuffer,
-                                    &SweepRow::toStarcraft, &SweepRow::bytes, &SweepRow::fetches})
+    for (double SweepRow::*field :
+         {&SweepRow::gbuffer, &SweepRow::toGbuffer, &SweepRow::toStarcraft,
+          &SweepRow::starcraftRepeat, &SweepRow::bytes, &SweepRow::fetches})
         point.*field = medianOf(field);
     for (PictureError SweepRow::*error :
          {&SweepRow::raw, &SweepRow::matched, &SweepRow::depthRaw, &SweepRow::depthMatched,
@@ -106,52 +108,31 @@ SweepRow overViews(Rows rows) {
     return point;
 }
 
-std::vector<SweepRow> atTypicalSpeed(std::vector<SweepRow> rows) {
-    using Key = std::tuple<std::string, std::string, int, int, double>;
-    const auto keyOf = [](const SweepRow& row) {
-        return Key{row.scene, row.view, row.width, row.height, row.radius};
-    };
-    const auto anchorOf = [](const SweepRow& row) { return row.total.median / row.toStarcraft; };
-    const auto hasAnchor = [](const SweepRow& row) {
-        return row.total.median > 0 && row.toStarcraft > 0;
-    };
-    std::map<Key, std::vector<SweepRow>> views;
-    for (const SweepRow& row : rows)
-        if (hasAnchor(row))
-            views[keyOf(row)].push_back(row);
-    std::map<Key, double> typical;
-    for (const auto& [key, members] : views)
-        typical[key] = median(members, anchorOf);
-    for (SweepRow& row : rows) {
-        if (!hasAnchor(row))
-            continue;
-        const double factor = typical.at(keyOf(row)) / anchorOf(row);
-        for (double* time : {&row.total.median, &row.total.low, &row.total.high, &row.gbuffer})
-            *time *= factor;
-        for (double& time : row.work)
-            time *= factor;
-    }
-    return rows;
-}
-
 std::string titleOf(const SweepGroup& group) {
     return fmt::format("{}, {}×{}, R {:g} m", group.scene, group.width, group.height, group.radius);
 }
 
 std::vector<SweepGroup> groupsOf(const std::vector<SweepRow>& rows) {
+    struct Members {
+        std::vector<SweepRow> typical, measured;
+    };
     std::vector<std::string> scenes;
-    std::map<std::tuple<std::string, int, int, double>, std::vector<SweepRow>> byGroup;
-    for (const SweepRow& row : atTypicalSpeed(rows)) {
+    std::map<std::tuple<std::string, int, int, double>, Members> byGroup;
+    const std::vector<SweepRow> typical = atTypicalSpeed(rows);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const SweepRow& row = rows[i];
         if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end())
             scenes.push_back(row.scene);
-        byGroup[{row.scene, row.width, row.height, row.radius}].push_back(row);
+        Members& members = byGroup[{row.scene, row.width, row.height, row.radius}];
+        members.typical.push_back(typical[i]);
+        members.measured.push_back(row);
     }
     std::vector<SweepGroup> groups;
     for (const std::string& scene : scenes)
         for (const auto& [key, members] : byGroup)
             if (const auto& [of, width, height, radius] = key; of == scene) {
-                groups.push_back({scene, width, height, radius, {}});
-                addPoints(members, groups.back());
+                groups.push_back({scene, width, height, radius, {}, strayingOf(members.measured)});
+                addPoints(members.typical, groups.back());
             }
     return groups;
 }
@@ -170,12 +151,14 @@ std::vector<std::string> lackingViews(const SweepGroup& group) {
 std::span<const ErrorMeasure> errorMeasures() {
     using R = SweepRow;
     static const ErrorMeasure measures[] = {
-        {"RMSE, matched", full, [](const R& row) { return row.matched.rmse; }, true},
+        {"RMSE, matched", full, [](const R& row) { return row.matched.rmse; }, true, "scatter"},
         {"RMSE, raw", full, [](const R& row) { return row.raw.rmse; }},
         {"bias, raw", full, [](const R& row) { return std::abs(row.raw.bias); }},
         {"1 − SSIM, matched", full, [](const R& row) { return 1 - row.matched.ssim; }},
         {"FLIP, matched", full, [](const R& row) { return row.matched.flip; }, true},
         {"FLIP of the lit image, matched", full, [](const R& row) { return row.litMatched.flip; }},
+        {"10 − predicted JOD of the lit image, matched", full,
+         [](const R& row) { return 10 - row.litMatched.jod; }, false, "predicted-jod"},
         {"RMSE, matched", depth, [](const R& row) { return row.depthMatched.rmse; }},
         {"RMSE, raw", depth, [](const R& row) { return row.depthRaw.rmse; }},
         {"bias, raw", depth, [](const R& row) { return std::abs(row.depthRaw.bias); }},
@@ -192,9 +175,16 @@ std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasur
     return points;
 }
 
+double uncertaintyOf(const SweepGroup& group) {
+    return group.straying.isTooMuch() ? group.straying.mean : 0;
+}
+
 Scatter scatterOf(const SweepGroup& group, const ErrorMeasure& measure,
                   const std::vector<std::string>& techniques) {
-    Scatter scatter{{}, paretoFront(paretoPoints(group, measure)), measure.name, measure.reference};
+    const auto points = paretoPoints(group, measure);
+    const double uncertainty = uncertaintyOf(group);
+    Scatter scatter{{},           paretoFront(points), nearFront(points, uncertainty),
+                    measure.name, measure.reference,   uncertainty};
     for (const SweepRow& row : group.points)
         scatter.points.push_back({row.configuration, indexOf(techniques, row.technique),
                                   row.total.median, row.total.low, row.total.high,

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "bench/sweep/pareto.h"
-#include "bench/sweep/row.h"
+#include "bench/sweep/speed.h"
 #include "report/scatter.h"
 
 #include <map>
@@ -14,16 +14,10 @@ namespace obscura {
 // One configuration at one scene, resolution and radius, all views taken together. Times, fetches,
 // bytes and ratios are medians over views, so that the percentiles are those of the frames of a
 // typical view. RMSE is the root of the mean square; bias is the mean size with the sign of the
-// mean, so that views do not cancel out; other errors are means. An error is NaN as soon as one
-// view has none. Frames are summed, `view` lists the names, and text and thumbnail are the first
-// view's.
+// mean, so that views do not cancel out; other errors and predicted JOD are means. An error is NaN
+// as soon as one view has none. Frames are summed, `view` lists the names, and text and thumbnail
+// are the first view's.
 SweepRow overViews(std::span<const SweepRow> rows);
-
-// The rows with their milliseconds as at the view's typical speed. Groups of configurations run one
-// after the other, while machines heat up and others use them: each row's are scaled so that
-// `starcraft` with 16 samples takes in its rounds what it takes in the view's median row. Ratios
-// stay as they are; so does what has none.
-std::vector<SweepRow> atTypicalSpeed(std::vector<SweepRow> rows);
 
 // The configurations of one scene, resolution and radius, by rising milliseconds at typical speed.
 struct SweepGroup {
@@ -31,6 +25,7 @@ struct SweepGroup {
     int width = 0, height = 0;
     double radius = 0; // metres
     std::vector<SweepRow> points;
+    Straying straying; // of the rows that the points are made of
 };
 // "atrium, 960×540, R 0.5 m"
 std::string titleOf(const SweepGroup& group);
@@ -46,11 +41,16 @@ struct ErrorMeasure {
     std::string name;      // "RMSE, matched"
     std::string reference; // "full" or "depth buffer"
     double (*of)(const SweepRow&);
-    bool always = false; // tables show it beside any other
+    bool always = false;     // tables show it beside any other
+    std::string figure = {}; // how the file of its figure for papers begins; "": it has none
 };
 std::span<const ErrorMeasure> errorMeasures(); // the first is the default
 
 std::vector<ParetoPoint> paretoPoints(const SweepGroup& group, const ErrorMeasure& measure);
+
+// How far the group's times are trusted, each way, as a share; 0 where the machine strayed little,
+// and fronts have no interval.
+double uncertaintyOf(const SweepGroup& group);
 
 // The group as a chart shows it; `techniques` are the series.
 Scatter scatterOf(const SweepGroup& group, const ErrorMeasure& measure,

@@ -98,6 +98,7 @@ std::string keyOf(const std::string& configuration, const std::string& scene,
 // Rows of an earlier run count when nothing that decides them has changed since.
 void Sweeping::open() {
     sweep_.machine = machineOf(driver_, timing_, identityOf(study_, hashes_));
+    sweep_.machine.display = inWords(study_.display);
     sweep_.machine.rows = static_cast<int>(study_.match.techniques.size() *
                                            study_.match.test.size() * study_.sizes.size());
     removeUnfinishedFiles(plan_.folder);
@@ -220,6 +221,7 @@ SweepRow Sweeping::rowOf(MeasuredView& seen, const Configuration& configuration,
     row.gbuffer = time.gbuffer;
     row.toGbuffer = time.total.median / time.gbuffer;
     row.toStarcraft = time.total.median / time.starcraft;
+    row.starcraftRepeat = time.starcraftRepeat;
     row.bytes = time.bytes / (1.0 * row.width * row.height);
     row.fetches = fetchesPerPixel(settings) * (1 + guardShare(settings, row.width, row.height));
     addErrors(row, seen, configuration);
@@ -322,6 +324,7 @@ std::string identityOf(const SweepStudy& study, SceneHashes& hashes) {
     for (const View& view : viewsOf(study))
         text += fmt::format("\n{} {:g} {}", view.name, view.radius, hashes.of(view));
     std::for_each(study.sizes.begin(), study.sizes.end(), add);
+    text += "\n" + inWords(study.display);
     if (study.light && !study.light->environment.empty())
         text += "\n" + sha256(readFile(hashes.folders().protocol / study.light->environment));
     if (study.growth) {

@@ -23,10 +23,17 @@ json toJson(const Camera& camera) {
             {"near", near}};
 }
 
+json toJson(const Ground& ground) {
+    const auto& [wall, colour] = ground;
+    return {{"wall", wall}, {"colour", colour}};
+}
+
 json toJson(const View& view) {
-    const auto& [name, file, builtin, camera, radius, exposure, place] = view;
+    const auto& [name, file, builtin, camera, radius, exposure, ground, place] = view;
     json result = {{"camera", toJson(camera)}, {"radius", radius}, {"exposure", exposure}};
     result[file.empty() ? "builtin" : "file"] = file.empty() ? builtin : file;
+    if (ground)
+        result["ground"] = toJson(*ground);
     return result;
 }
 
@@ -283,7 +290,7 @@ Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
                  conditions, boost, trial, before, after, keys, screen, display, ordering, claims,
                  exclusions, words, translations, simulation, path, sha256] = protocol;
-    const auto& [positionBias, viewTime, decision] = simulation;
+    const auto& [positionBias, lapse, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 
     Parts result;
@@ -325,6 +332,8 @@ Parts split(const Protocol& protocol) {
           {"view", toJson(viewTime)},
           {"decision", toJson(decision)}}},
         {"conditions", parts.simulated}};
+    if (lapse > 0) // studies without keep their hash
+        result.texts["simulation"]["lapse"] = lapse;
     if (!(display == displays().front())) // it only predicts
         result.texts["display"] = toJson(display);
     for (const Texts& translation : translations)

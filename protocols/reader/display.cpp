@@ -19,15 +19,23 @@ struct Number {
     const char* key;
     double low, high;
     void (*set)(Display&, double);
+    double (*get)(const Display&);
 };
 constexpr Number numbers[] = {
-    {"width", 16, 65536, [](Display& d, double value) { d.width = static_cast<int>(value); }},
-    {"height", 16, 65536, [](Display& d, double value) { d.height = static_cast<int>(value); }},
-    {"diagonalInches", 0.1, 10000, [](Display& d, double value) { d.diagonalInches = value; }},
-    {"distanceCm", 1, 1e5, [](Display& d, double value) { d.distance = value / 100; }},
-    {"peak", 1, 1e5, [](Display& d, double value) { d.peak = value; }},
-    {"contrast", 1, 1e9, [](Display& d, double value) { d.contrast = value; }},
-    {"ambientLux", 0, 2e5, [](Display& d, double value) { d.ambient = value; }},
+    {"width", 16, 65536, [](Display& d, double value) { d.width = static_cast<int>(value); },
+     [](const Display& d) { return static_cast<double>(d.width); }},
+    {"height", 16, 65536, [](Display& d, double value) { d.height = static_cast<int>(value); },
+     [](const Display& d) { return static_cast<double>(d.height); }},
+    {"diagonalInches", 0.1, 10000, [](Display& d, double value) { d.diagonalInches = value; },
+     [](const Display& d) { return d.diagonalInches; }},
+    {"distanceCm", 1, 1e5, [](Display& d, double value) { d.distance = value / 100; },
+     [](const Display& d) { return d.distance * 100; }},
+    {"peak", 1, 1e5, [](Display& d, double value) { d.peak = value; },
+     [](const Display& d) { return d.peak; }},
+    {"contrast", 1, 1e9, [](Display& d, double value) { d.contrast = value; },
+     [](const Display& d) { return d.contrast; }},
+    {"ambientLux", 0, 2e5, [](Display& d, double value) { d.ambient = value; },
+     [](const Display& d) { return d.ambient; }},
 };
 
 bool isWhole(const Number& number) { return number.key[0] == 'w' || number.key[0] == 'h'; }
@@ -82,6 +90,13 @@ Display parseDisplay(TomlTable table, double distanceCm) {
     }
     table.finish();
     return display;
+}
+
+std::vector<std::pair<std::string, double>> numbersOf(const Display& display) {
+    std::vector<std::pair<std::string, double>> result;
+    for (const Number& number : numbers)
+        result.emplace_back(number.key, number.get(display));
+    return result;
 }
 
 Display displayOf(std::span<const std::string> words) {

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace obscura {
@@ -35,6 +36,9 @@ std::string inWords(const Display& display);
 // width and height (pixels), diagonalInches, distanceCm, peak (cd/m2), contrast and ambientLux.
 // `distanceCm` of [screen], above 0, stands in for a distance that is not given here.
 Display parseDisplay(TomlTable table, double distanceCm = 0);
+
+// Its numbers by these keys, in this order: as files of ours have a display, and read it again.
+std::vector<std::pair<std::string, double>> numbersOf(const Display& display);
 
 // The same from a command line: a name or "peak=100" each, later ones on top of earlier ones.
 Display displayOf(std::span<const std::string> words);

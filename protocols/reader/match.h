@@ -14,7 +14,8 @@ namespace obscura {
 // (study_parts.h); a protocol takes the result by `include`.
 
 // What techniques are compared with: integrals of renderer/reference/reference.h over the whole
-// scene, or the first of them over the depth buffer alone.
+// scene, or the first of them over the depth buffer alone, whose surfaces are as thick as the
+// radius.
 enum class Truth { cosine, uniform, falloff, depth };
 
 // Their spellings, in the order of the enumeration.

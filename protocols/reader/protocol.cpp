@@ -307,6 +307,7 @@ ExGaussian parseTime(std::optional<TomlTable> table, ExGaussian fallback) {
 Simulation parseSimulation(TomlTable table) {
     Simulation simulation;
     simulation.positionBias = table.number("positionBias", -0.5, 0.5, simulation.positionBias);
+    simulation.lapse = table.number("lapse", 0, 1, simulation.lapse);
     simulation.view = parseTime(table.table("view"), simulation.view);
     simulation.decision = parseTime(table.table("decision"), simulation.decision);
     table.finish();

@@ -56,6 +56,7 @@ struct ExGaussian {
 };
 struct Simulation {
     double positionBias = 0; // added to the probability of choosing the second image, -0.5 ... 0.5
+    double lapse = 0; // of who goes by predicted JOD: share of trials answered at random, 0 ... 1
     ExGaussian view{3.0, 0.8, 2.0};
     ExGaussian decision{0.9, 0.2, 0.5};
 };

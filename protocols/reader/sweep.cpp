@@ -81,6 +81,8 @@ SweepStudy parseSweepStudy(const std::string& text, const std::string& file) {
     study.match.image = study.match.training; // fits are tested there; the sweep measures `sizes`
     if (auto light = root.table("light"))
         study.light = parseLevel("light", std::move(*light));
+    if (auto display = root.table("display"))
+        study.display = parseDisplay(std::move(*display));
     study.frames = root.integer("frames", 1, 100000, study.frames);
     study.seconds = root.number("seconds", 0, 3600, study.seconds);
     if (auto growth = root.table("growth"))

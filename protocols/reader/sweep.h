@@ -1,5 +1,6 @@
 #pragma once
 
+#include "protocols/reader/display.h"
 #include "protocols/reader/match.h"
 
 #include <filesystem>
@@ -26,8 +27,9 @@ struct GrowthPlan {
 struct SweepStudy {
     MatchStudy match; // every configuration; training views fit, test views are measured
     std::vector<ImageSize> sizes;
-    std::optional<Level> light; // of lit images; without it there are none
-    int frames = 200;           // timed of each configuration, or as many as fit in
+    std::optional<Level> light;           // of lit images; without it there are none
+    Display display = displays().front(); // on which a person would see them
+    int frames = 200;                     // timed of each configuration, or as many as fit in
     double seconds = 5;
     std::optional<GrowthPlan> growth;
 };

@@ -7,9 +7,9 @@
 namespace obscura {
 
 // The integrals of renderer/reference/reference.h traced against the depth buffer alone, by brute
-// force: what is hidden or off the screen does not exist. This is the best that any screen-space
-// method of one depth layer can know; the difference between it and RayTracer is what none can
-// know.
+// force: what is hidden or off the screen does not exist. How far surfaces go on behind what is
+// seen of them, no depth buffer of one layer says: `thickness` assumes it, and decides how far this
+// is from RayTracer (docs/reference.md). Techniques that assume better can be nearer.
 //
 // A ray is walked pixel by pixel; between pixels the surface is taken as plane (inverse depth is
 // interpolated, which is exact on planes). Without `thickness` everything behind the surface is

@@ -100,6 +100,35 @@ TEST_F(Authors, PoolTheSameDifferencesOfEveryBand) {
     }
 }
 
+// A slope of colours with squares, and on top of it fine stripes, other ones in every channel.
+Image8 stripes(int width, int height, int strength) {
+    Image8 image{width, height, 3, {}};
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                const int square = (x / (3 + 2 * c) + y / (5 - c)) % 2,
+                          stripe = (x * (c + 2) + y * 3) % 7;
+                image.pixels.push_back(static_cast<std::uint8_t>(60 + x * 80 / width +
+                                                                 y * 40 / height * c + 20 * square +
+                                                                 strength * (c + 1) * stripe / 2));
+            }
+    return image;
+}
+
+// As the authors' program (release 0.5.6 on PyTorch 1.13, single precision) gives it, for those who
+// have no golden folder. Of the second, rows and columns are of unlike parity.
+TEST(ColorVideoVdp, GivesTheAuthorsNumbers) {
+    const auto jod = [](int width, int height, const char* on) {
+        return predictedDifference(stripes(width, height, 4), stripes(width, height, 0),
+                                   display(on))
+            .jod;
+    };
+    EXPECT_NEAR(jod(160, 90, "standard_fhd"), 9.359391, 1e-5);
+    EXPECT_NEAR(jod(121, 96, "standard_fhd"), 9.407818, 1e-5);
+    EXPECT_NEAR(jod(160, 90, "standard_4k"), 9.579566, 1e-5);
+    EXPECT_NEAR(jod(121, 96, "standard_4k"), 9.657998, 1e-5);
+}
+
 TEST(ColorVideoVdp, EqualPicturesGiveTenAndAnEmptyMap) {
     for (const auto& [width, height] : {std::pair{1, 1}, {2, 3}, {5, 4}, {33, 18}, {160, 90}}) {
         const Image8 image = blobs(width, height, 1);

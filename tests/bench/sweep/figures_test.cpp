@@ -1,9 +1,11 @@
 #include "base/files.h"
 #include "bench/sweep/figures.h"
+#include "bench/sweep/summary.h"
 #include "tests/bench/sweep/sample_sweep.h"
 #include "tests/folder.h"
 #include "tests/report/xml.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace obscura {
@@ -11,6 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
@@ -22,7 +25,8 @@ TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
             row.configuration = row.technique = "it's {x}_y ^ <z> & \"w\"";
     }
     const std::vector<Figure> figures = sweepFigures(sweep);
-    ASSERT_EQ(figures.size(), 2u); // scatter, growth
+    ASSERT_EQ(figures.size(), 3u); // two errors, growth
+    EXPECT_THAT(figures[1].name, StartsWith("predicted-jod-1-"));
     writeFigures(folder.path(), figures);
     for (const Figure& figure : figures) {
         const std::string svg = readFile(folder / (figure.name + ".svg"));
@@ -34,13 +38,23 @@ TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
                 HasSubstr("it's {x}_y ^ &lt;z> &amp; \"w\""));
 }
 
+TEST(Figures, SayHowUncertainTimesAreWhereTheyAre) {
+    Sweep sweep = test::smallSweep();
+    EXPECT_THAT(sweepFigures(sweep)[0].script, Not(HasSubstr("dotted")));
+    for (std::size_t i = 0; i < sweep.rows.size(); i += 4)
+        sweep.rows[i].toStarcraft /= 1.2;
+    EXPECT_THAT(sweepFigures(sweep)[0].script,
+                HasSubstr(fmt::format("dotted: the front, times ±{:.1f} %",
+                                      100 * uncertaintyOf(groupsOf(sweep.rows)[0]))));
+}
+
 TEST(Figures, AreNotDrawnOfNothing) {
     EXPECT_THAT(sweepFigures({}), IsEmpty());
     Sweep sweep = test::smallSweep();
     sweep.growth.clear();
     for (SweepRow& row : sweep.rows) {
         row.technique = "hbao";
-        row.matched.rmse = std::nan("");
+        row.matched.rmse = row.litMatched.jod = std::nan("");
     }
     EXPECT_THAT(sweepFigures(sweep), IsEmpty());
 }

@@ -48,6 +48,7 @@ TEST_F(SweepFiles, ReadBackExactly) {
     row.thumbnail = "";
     sweep.growth[0].axis = "\"";
     sweep.machine.clocks = "1 GHz\n\"turbo\"";
+    sweep.machine.display = "24-inch";
     writeSweep(folder_ / "s", sweep);
     const Sweep read = readSweep(folder_ / "s");
     EXPECT_EQ(sweepCsv(read.rows), sweepCsv(sweep.rows));
@@ -65,6 +66,9 @@ TEST_F(SweepFiles, ReadBackExactly) {
     EXPECT_EQ(same.raw.flip, -1.0 / 3);
     EXPECT_EQ(same.frames, -7);
     EXPECT_EQ(same.litMatched.flip, row.litMatched.flip);
+    EXPECT_EQ(same.litMatched.jod, row.litMatched.jod);
+    EXPECT_TRUE(std::isnan(same.matched.jod));
+    EXPECT_EQ(read.machine.display, sweep.machine.display);
     EXPECT_EQ(same.work, row.work);
 }
 
@@ -83,10 +87,11 @@ TEST_F(SweepFiles, HaveAColumnForEachFieldAndAnEmptyCellForNaN) {
         return at == names.end() ? ""
                                  : records[1].cells[static_cast<std::size_t>(at - names.begin())];
     };
-    EXPECT_EQ(names.size(), 10u + 13 + 6 * 4 + 1);
+    EXPECT_EQ(names.size(), 10u + 14 + 6 * 4 + 2 + 1);
     EXPECT_EQ(cell("configuration"), "hbao");
     EXPECT_EQ(cell("full_raw_rmse"), "");
     EXPECT_EQ(cell("lit_matched_flip"), "0");
+    EXPECT_EQ(cell("lit_raw_jod"), "");
     EXPECT_EQ(cell("total_95th_percentile_ms"), "1.5");
     EXPECT_EQ(cell("prepare_median_ms"), "0");
 }
@@ -99,16 +104,16 @@ TEST_F(SweepFiles, NameThePlaceOfAFault) {
     EXPECT_EQ(errorAfter("growth.csv", "axis", "axes"),
               "s/growth.csv:1: axes: unknown column; did you mean \"axis\"?");
     EXPECT_THAT(errorAfter("sweep.csv", "atrium,", ""),
-                testing::StartsWith("s/sweep.csv:2: expected 48 columns, found 47"));
+                testing::StartsWith("s/sweep.csv:2: expected 51 columns, found 50"));
     EXPECT_THAT(errorAfter("sweep.json", "\"vendor\"", "\"seller\""),
                 HasSubstr("s/sweep.json: vendor: expected a text of this name, found none"));
     EXPECT_THAT(errorAfter("sweep.json", ",", ";"), HasSubstr("line 2, column"));
-    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 2", "\"formatVersion\": 3"),
-                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 2, found 3; a later"));
+    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 3", "\"formatVersion\": 4"),
+                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 3, found 4; a later"));
 }
 
 // Takes a column, the last but one, out of every line.
-std::string withoutFlip(const std::string& csv) {
+std::string withoutJod(const std::string& csv) {
     std::string result;
     for (const CsvRecord& record : splitCsv(csv))
         for (std::size_t i = 0; i < record.cells.size(); ++i)
@@ -119,16 +124,17 @@ std::string withoutFlip(const std::string& csv) {
 
 TEST_F(SweepFiles, OfAnEarlierVersionMayLackColumns) {
     writeSweep(folder_ / "s", test::smallSweep());
-    writeFile(folder_ / "s/sweep.csv", withoutFlip(readFile(folder_ / "s/sweep.csv")));
+    writeFile(folder_ / "s/sweep.csv", withoutJod(readFile(folder_ / "s/sweep.csv")));
     EXPECT_THAT(test::errorOf([&] { readSweep(folder_ / "s"); }),
-                HasSubstr("expected column \"lit_matched_flip\", found \"thumbnail\""));
+                HasSubstr("expected column \"lit_matched_jod\", found \"thumbnail\""));
     std::string json = readFile(folder_ / "s/sweep.json");
-    const std::string version = "  \"formatVersion\": 2,\n";
+    const std::string version = "  \"formatVersion\": 3,\n";
     writeFile(folder_ / "s/sweep.json", json.erase(json.find(version), version.size()));
     const Sweep read = readSweep(folder_ / "s");
     EXPECT_EQ(read.machine.formatVersion, 1);
-    EXPECT_TRUE(std::isnan(read.rows.at(0).litMatched.flip));
-    EXPECT_EQ(read.rows.at(0).litMatched.ssim, test::smallSweep().rows.at(0).litMatched.ssim);
+    EXPECT_EQ(read.machine.display, test::smallSweep().machine.display);
+    EXPECT_TRUE(std::isnan(read.rows.at(0).litMatched.jod));
+    EXPECT_EQ(read.rows.at(0).litMatched.flip, test::smallSweep().rows.at(0).litMatched.flip);
     EXPECT_EQ(read.rows.at(0).thumbnail, test::smallSweep().rows.at(0).thumbnail);
 }
 

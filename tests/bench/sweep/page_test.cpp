@@ -1,5 +1,6 @@
 #include "base/files.h"
 #include "bench/sweep/page.h"
+#include "bench/sweep/summary.h"
 #include "report/html.h"
 #include "tests/bench/sweep/sample_sweep.h"
 #include "tests/error_of.h"
@@ -46,7 +47,7 @@ TEST(SweepPage, HasEveryConfigurationAsAMarkOfEachErrorAndInDetail) {
     const Sweep sweep = test::smallSweep();
     const std::string page = sweepPage(sweep, ".");
     for (const SweepRow& row : sweep.rows)
-        EXPECT_EQ(count(page, "aria-label=\"" + row.configuration + ": "), 11u);
+        EXPECT_EQ(count(page, "aria-label=\"" + row.configuration + ": "), errorMeasures().size());
     EXPECT_EQ(count(page, "<article id=\"p"), sweep.rows.size() / 2); // of two views
 }
 
@@ -64,6 +65,23 @@ TEST(SweepPage, WarnsOfASoftwareRenderer) {
     EXPECT_THAT(sweepPage(sweep, "."), HasSubstr("This renderer is software."));
     sweep.machine.renderer = "NVIDIA H200";
     EXPECT_THAT(sweepPage(sweep, "."), Not(HasSubstr("This renderer is software.")));
+}
+
+TEST(SweepPage, SaysThatJodIsPredictedAndOnWhichScreen) {
+    Sweep sweep = test::smallSweep();
+    sweep.machine.display = "24-inch <wide>";
+    for (SweepRow& row : sweep.rows)
+        row.litMatched.jod = row.view == "view 1" ? 8.5 : 9; // mean 8.75
+    std::string page = sweepPage(sweep, ".");
+    EXPECT_EQ(test::faultOfXml(page), "");
+    EXPECT_THAT(page, HasSubstr("for a person before this screen: 24-inch &lt;wide&gt;. 10 is no"));
+    EXPECT_THAT(page, HasSubstr("10 − predicted JOD of the lit image, matched, full reference"));
+    EXPECT_THAT(page, HasSubstr("data-error=\"1.25\""));
+    EXPECT_EQ(count(page, "<td class=\"number\">8.75</td>"), // in the ranking and the details
+              2 * sweep.rows.size() / 2);
+    EXPECT_EQ(count(page, "JOD"), count(page, "predicted JOD") + 1);
+    sweep.machine.display.clear();
+    EXPECT_THAT(sweepPage(sweep, "."), Not(HasSubstr("just-objectionable")));
 }
 
 TEST(SweepPage, HoldsEachThumbnailOnce) {

@@ -37,6 +37,40 @@ TEST(ParetoFront, LeavesOutWhatIsNotANumber) {
     EXPECT_FALSE(dominatedBy(points, 2));
 }
 
+TEST(NearFront, IsWhatIsDominatedByLessThanTimesAreUncertain) {
+    const Points points = {{1, 3, "a"},   {1.2, 3, "b"}, {1.22, 3, "c"}, {0, 4, "free"},
+                           {0.1, 4, "d"}, {nan, 1, "e"}, {2, 2, "f"}};
+    EXPECT_THAT(nearFront(points, 0.1), ElementsAre(1)); // 1.1 each way is 1.21
+    EXPECT_THAT(nearFront(points, 0), IsEmpty());
+}
+
+// By another definition: each time is anywhere between its ends, and the point is on the front of
+// some such times. Every choice of ends is tried.
+TEST(NearFront, IsTheFrontOfSomeTimesWithinTheUncertainty) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<> one(0.5, 1.5);
+    std::size_t found = 0;
+    for (int round = 0; round < 100; ++round) {
+        Points points(7);
+        for (ParetoPoint& point : points)
+            point = {one(random), std::round(4 * one(random)), ""};
+        std::set<std::size_t> sometimes;
+        for (unsigned slow = 0; slow < 1u << points.size(); ++slow) {
+            Points shifted = points;
+            for (std::size_t i = 0; i < points.size(); ++i)
+                shifted[i].milliseconds *= slow >> i & 1u ? 1.2 : 1 / 1.2;
+            for (const std::size_t i : paretoFront(shifted))
+                sometimes.insert(i);
+        }
+        for (const std::size_t i : paretoFront(points))
+            sometimes.erase(i);
+        const auto near = nearFront(points, 0.2);
+        EXPECT_EQ(std::set(near.begin(), near.end()), sometimes);
+        found += near.size();
+    }
+    EXPECT_GT(found, 50u);
+}
+
 TEST(DominatedBy, NamesTheLeastErrorForNoMoreTime) {
     const Points points = {{1, 3, "a"}, {2, 2, "b"}, {3, 2.5, "c"}, {3, 4, "d"}, {4, 1, "e"}};
     EXPECT_EQ(dominatedBy(points, 3), 1u);

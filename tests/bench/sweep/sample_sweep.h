@@ -100,6 +100,8 @@ inline SweepRow sampleRow(const SampleConfiguration& configuration, const std::s
     row.depthMatched = error(.7);
     row.litRaw = error(.6);
     row.litMatched = error(.4);
+    row.litRaw.jod = 10 - 12 * rmse;
+    row.litMatched.jod = 10 - 9 * rmse;
     return row;
 }
 
@@ -114,7 +116,8 @@ inline Sweep sampleSweep() {
         "glFinish and steady clock, because this driver's timer queries are not honest",
         "obscura-bench 0.1.0 (994ab97d1a2b)",
         std::string(64, 'a'),
-        "2026-11-22T06:21:00Z"};
+        "2026-11-22T06:21:00Z",
+        ""};
     for (const char* scene : {"atrium", "sponza/Sponza.gltf"})
         for (const auto& [width, height] : {std::pair(640, 360), std::pair(1920, 1080)})
             for (const SampleConfiguration& configuration : sampleConfigurations())

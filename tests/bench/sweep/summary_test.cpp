@@ -29,6 +29,7 @@ TEST(OverViews, TakesMediansOfTimesAndRootMeanSquaresOfRmse) {
                                   rowOf("hbao", "b", 3), rowOf("hbao", "d", 5)};
     for (std::size_t i = 0; i < 4; ++i) {
         rows[i].matched = {i < 2 ? 1.0 : 7.0, i ? -0.5 : 0.5, 0.25 * static_cast<double>(i), 0.5};
+        rows[i].litMatched.jod = 6 + static_cast<double>(i);
         rows[i].work[1] = rows[i].total.median / 2;
         rows[i].thumbnail = std::to_string(i);
     }
@@ -40,6 +41,7 @@ TEST(OverViews, TakesMediansOfTimesAndRootMeanSquaresOfRmse) {
     EXPECT_EQ(point.matched.rmse, 5);    // of 1, 1, 7, 7
     EXPECT_EQ(point.matched.bias, -0.5); // its size, whatever cancels out
     EXPECT_EQ(point.matched.ssim, 0.375);
+    EXPECT_EQ(point.litMatched.jod, 7.5);
     EXPECT_EQ(point.frames, 800);
     EXPECT_EQ(point.view, "a, b, c, d");
     EXPECT_EQ(point.thumbnail, "0");
@@ -112,16 +114,18 @@ TEST(ErrorMeasures, BeginWithMatchedRmseAndAreBetterWhenLess) {
     row.raw.bias = -0.25;
     row.depthMatched.flip = 0.4;
     row.litMatched.flip = 0.5;
+    row.litMatched.jod = 9.25;
     std::vector<double> values;
     for (const ErrorMeasure& measure : errorMeasures())
         values.push_back(measure.of(row));
-    ASSERT_EQ(values.size(), 11u);
+    ASSERT_EQ(values.size(), 12u);
     EXPECT_EQ(values[0], 0.1);
     EXPECT_EQ(values[2], 0.25);
     EXPECT_NEAR(values[3], 0.1, 1e-15);
     EXPECT_EQ(values[4], 0.3);
     EXPECT_EQ(values[5], 0.5);
-    EXPECT_EQ(values[10], 0.4);
+    EXPECT_EQ(values[6], 0.75);
+    EXPECT_EQ(values[11], 0.4);
 }
 
 TEST(Techniques, AreFoundByConfigurationAlsoWhereOnlyGrowthWasMeasured) {

@@ -114,7 +114,12 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     EXPECT_LE(many.matched.rmse, many.raw.rmse + 0.02); // fitted, though on another view
     EXPECT_GT(many.total.median, 0);
     EXPECT_NEAR(many.toGbuffer, many.total.median / many.gbuffer, 1e-9);
+    EXPECT_GT(many.starcraftRepeat, 0);
     EXPECT_LT(gtao.litMatched.rmse, gtao.matched.rmse); // half of the light is not occluded so much
+    EXPECT_LT(none.litRaw.jod, gtao.litMatched.jod);
+    EXPECT_LT(gtao.litMatched.jod, 10);
+    EXPECT_TRUE(std::isnan(gtao.matched.jod));
+    EXPECT_EQ(first.machine.display, inWords(displays().front()));
     for (const char* file : {"sweep.csv", "sweep.json", "sweep.html"})
         EXPECT_TRUE(fs::exists(folder_ / "1" / file)) << file;
     EXPECT_TRUE(fs::exists(folder_ / "whole" / gtao.thumbnail));
@@ -163,7 +168,7 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
         EXPECT_NE(choice.candidates[i].verdict, "") << nameOf(choice, i);
 
     // What is written is what a study takes by include, as it was matched.
-    writeChoice(folder_ / "choice", study_, paid, choice);
+    writeChoice(folder_ / "choice", study_, ".", paid, choice);
     const std::size_t techniques = text.find("[techniques]");
     writeFile(folder_ / "choice" / "study.toml",
               "include = [\"choice.toml\"]\n" + text.substr(0, techniques));
@@ -172,7 +177,7 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     const Configuration& wanted = choice.candidates[*choice.chosen].configuration;
     EXPECT_EQ(settingsOf(included.techniques[0], 0.2).named(),
               settingsAt(wanted, 0.2, true).named());
-    writeChoice(folder_ / "choice", study_, impossible, choiceOf(impossible));
+    writeChoice(folder_ / "choice", study_, ".", impossible, choiceOf(impossible));
     EXPECT_FALSE(fs::exists(folder_ / "choice" / "choice.toml")); // no stale answer
 }
 

@@ -31,6 +31,7 @@ camera = { position = [0, 1, 3], target = [0, 0.5, 0], up = [0, 1, 0], fovDegree
 [scenes.hall]
 file = "hall.glb"
 radius = 0.3
+ground = { wall = -3, colour = [0.9, 0.8, 0.7] }
 camera = { position = [0, 1, 3], target = [0, 0.5, 0] }
 [scenes.spare]
 file = "spare.glb"
@@ -102,6 +103,7 @@ peak = 150
 
 [simulation]
 positionBias = 0.01
+lapse = 0.015
 view = { mean = 3.1, deviation = 0.81, tail = 2.1 }
 decision = { mean = 0.91, deviation = 0.21, tail = 0.51 }
 )";
@@ -143,6 +145,8 @@ const Turn turns[] = {
      "position = [0, 1, 4], target = [0, 0.5, 0], up", Part::stimuli},
     {"target = [0, 0.5, 0], up", "target = [0, 0.6, 0], up", Part::stimuli},
     {"hall.glb", "halls.glb", Part::stimuli},
+    {"wall = -3", "wall = -4", Part::stimuli},
+    {"colour = [0.9", "colour = [0.8", Part::stimuli},
     {"ambient = [1, 1, 1]", "ambient = [1, 1, 0.9]", Part::stimuli},
     {"background = [0.5, 1, 1]", "background = [0.6, 1, 1]", Part::stimuli},
     {"sky.hdr", "skies.hdr", Part::stimuli},
@@ -175,6 +179,7 @@ const Turn turns[] = {
     {"standard_4k", "laptop", Part::texts},
     {"peak = 150", "contrast = 150", Part::texts},
     {"positionBias = 0.01", "positionBias = 0.02", Part::texts},
+    {"lapse = 0.015", "lapse = 0.016", Part::texts},
     {"mean = 3.1", "mean = 3.2", Part::texts},
     {"deviation = 0.81", "deviation = 0.82", Part::texts},
     {"tail = 2.1", "tail = 2.2", Part::texts},

@@ -44,6 +44,18 @@ TEST(Display, TakesTheScreensDistanceUnlessItHasItsOwn) {
     EXPECT_DOUBLE_EQ(parsed("distanceCm = 50", 80).distance, 0.5);
 }
 
+TEST(Display, IsTheSameFromItsNumbers) {
+    for (const Display& display : displays()) {
+        std::vector<std::string> words;
+        for (const auto& [key, value] : numbersOf(display))
+            words.push_back(key + "=" + std::to_string(value));
+        Display again = given(words);
+        EXPECT_EQ(again.name, "");
+        again.name = display.name;
+        EXPECT_EQ(again, display);
+    }
+}
+
 TEST(Display, ErrorsSayWhatThereIs) {
     EXPECT_THAT(test::errorOf([] { parsed("peek = 100"); }),
                 HasSubstr("small.toml:1:1: display.peek"));

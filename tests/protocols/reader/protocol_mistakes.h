@@ -174,6 +174,8 @@ inline const Mistake mistakes[] = {
      "\"{pear} / {pairs}\""},
     {"BiasTooLarge", "[texts]", "[simulation]\npositionBias = 0.7\n\n[texts]",
      "small.toml:42:16: simulation.positionBias: expected a number from -0.5 to 0.5, found 0.7"},
+    {"LapseNegative", "[texts]", "[simulation]\nlapse = -0.1\n\n[texts]",
+     "small.toml:42:9: simulation.lapse: expected a number from 0 to 1, found -0.1"},
 };
 
 } // namespace obscura

@@ -73,6 +73,15 @@ TEST(SweepStudy, ListsMakeEveryCombination) {
                 testing::ElementsAre("gtao slices=1", "gtao slices=2", "gtao slices=4"));
 }
 
+TEST(SweepStudy, IsSeenOnTheDisplayThatItNames) {
+    EXPECT_EQ(parseSweepStudy(text, "small.toml").display.name, "standard_fhd");
+    const std::string display = "[display]\nname = \"standard_4k\"\npeak = 120\n";
+    const SweepStudy study = parseSweepStudy(text + display, "small.toml");
+    EXPECT_EQ(study.display.peak, 120);
+    EXPECT_EQ(study.display.width, 3840);
+    EXPECT_EQ(quick(study, 1).display, study.display);
+}
+
 TEST(SweepStudy, QuickKeepsEveryConfiguration) {
     const SweepStudy full = parseSweepStudy(text, "small.toml"), few = quick(full, 1);
     EXPECT_EQ(few.match.techniques.size(), full.match.techniques.size());

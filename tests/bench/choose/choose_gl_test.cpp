@@ -1,0 +1,149 @@
+#include "base/error.h"
+#include "bench/choose/choose.h"
+#include "bench/choose/radius.h"
+#include "bench/measure/viewpoints.h"
+#include "gl/context.h"
+#include "tests/folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace obscura {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(Radius, IsOneTwoOrFiveTimesAPowerOfTen) {
+    const std::pair<double, double> rounded[] = {
+        {0.5, 0.5}, {1.4, 1},  {1.42, 2},       {3, 2},        {3.2, 5},
+        {7, 5},     {7.1, 10}, {0.0012, 0.001}, {0.068, 0.05}, {0.08, 0.1}};
+    for (const auto& [metres, expected] : rounded)
+        EXPECT_NEAR(roundRadius(metres), expected, 1e-12 * expected) << metres;
+}
+
+// A scene says how large it is by what it shows: a hall wants a larger radius than a sculpture, and
+// within it something is occluded and not everything.
+TEST(Radius, FollowsTheScene) {
+    const gl::Context context;
+    const SuggestedRadius hall = suggestedRadius(viewOfScene("atrium"), {}, 4, 1),
+                          sculpture = suggestedRadius(viewOfScene("sculpture"), {}, 4, 1);
+    EXPECT_GE(hall.metres, 0.2); // studies of it have 0.5
+    EXPECT_LE(hall.metres, 1);
+    EXPECT_GE(sculpture.metres, 0.02);
+    EXPECT_LT(sculpture.metres, hall.metres);
+    EXPECT_THAT(hall.why, HasSubstr("4 cameras found in the scene see surfaces at a median depth"));
+}
+
+const std::string text = R"(name = "small"
+seed = 7
+reference = "cosine"
+rays = 32
+radii = [0.2]
+train = ["front"]
+test = ["left", "right", "high"]
+sizes = [[64, 36]]
+frames = 3
+seconds = 0.01
+[scenes.front]
+builtin = "sculpture"
+camera = { position = [0.8, 0.9, 1.75], target = [0, 0.57, 0], fovDegrees = 38 }
+[scenes.left]
+builtin = "sculpture"
+camera = { position = [-1.1, 0.8, 1.4], target = [0, 0.55, 0], fovDegrees = 38 }
+[scenes.right]
+builtin = "sculpture"
+camera = { position = [1.3, 0.8, 1.2], target = [0, 0.55, 0], fovDegrees = 38 }
+[scenes.high]
+builtin = "sculpture"
+camera = { position = [0.9, 1.5, 1.2], target = [0, 0.55, 0], fovDegrees = 38 }
+[techniques]
+none = { technique = "none" }
+starcraft = { technique = "starcraft", samples = [8, 64], blur = 0 }
+gtao = { technique = "gtao", preset = ["low", "ultra"] }
+)";
+
+class ChooseTest : public testing::Test {
+  protected:
+    Choice run(const Budget& budget) {
+        return choose(study_, budget, {}, {folder_.path(), folder_ / "cache"}, context_.driver(),
+                      [](double, double, const std::string&) {});
+    }
+    static std::string chosenOf(const Choice& choice) {
+        return choice.chosen ? choice.candidates[*choice.chosen].configuration.setting.name : "";
+    }
+
+    const test::Folder folder_;
+    const gl::Context context_;
+    SweepStudy study_ = parseSweepStudy(text, "small.toml");
+};
+
+// Of what was measured and is within the time none is better; with hardly any time, nothing but no
+// occlusion is left.
+TEST_F(ChooseTest, TheBestWithinATime) {
+    Budget budget;
+    budget.best = &measureNamed("rmse");
+    budget.milliseconds = 1e6;
+    const Choice choice = run(budget);
+    ASSERT_TRUE(choice.chosen);
+    const Candidate& chosen = choice.candidates[*choice.chosen];
+    EXPECT_NE(chosenOf(choice), "none");
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.rung == Rung::held_out) {
+            EXPECT_GE(candidate.rmse, chosen.rmse);
+            EXPECT_EQ(candidate.verdict, "");
+        }
+    for (const std::size_t i : choice.alike) {
+        EXPECT_EQ(choice.candidates[i].rung, Rung::held_out);
+        EXPECT_NE(i, *choice.chosen);
+    }
+    budget.milliseconds = 1e-6;
+    EXPECT_EQ(chosenOf(run(budget)), "none");
+}
+
+// Candidates are measured in the order of their errors on training views, until three have failed;
+// the others are not tried, and only what was tried has results.
+TEST_F(ChooseTest, TriesUntilThreeFail) {
+    Budget budget;
+    budget.flip = 1e-6; // what nothing meets, and a glance does not look at
+    const Choice choice = run(budget);
+    EXPECT_FALSE(choice.chosen);
+    double worstTried = 0, bestLeft = 1;
+    int tried = 0;
+    for (const Candidate& candidate : choice.candidates) {
+        EXPECT_NE(candidate.verdict, "");
+        EXPECT_EQ(candidate.views.size(), candidate.rung == Rung::held_out ? 3u : 0u);
+        EXPECT_EQ(std::isnan(candidate.milliseconds), candidate.views.empty());
+        if (std::isnan(candidate.trainingRmse))
+            continue; // left out at a glance
+        tried += candidate.rung == Rung::held_out;
+        (candidate.rung == Rung::held_out ? worstTried : bestLeft) =
+            candidate.rung == Rung::held_out ? std::max(worstTried, candidate.trainingRmse)
+                                             : std::min(bestLeft, candidate.trainingRmse);
+    }
+    EXPECT_EQ(tried, 3);
+    EXPECT_LE(worstTried, bestLeft);
+}
+
+// Far from any limit at a glance, what is nearest is measured all the same, so that it can be said
+// how near it is.
+TEST_F(ChooseTest, WhatCameNearestIsMeasured) {
+    Budget budget;
+    budget.rmse = 1e-4;
+    const Choice choice = run(budget);
+    EXPECT_FALSE(choice.chosen);
+    const auto measured =
+        std::count_if(choice.candidates.begin(), choice.candidates.end(),
+                      [](const Candidate& candidate) { return candidate.rung == Rung::held_out; });
+    EXPECT_EQ(measured, 3);
+}
+
+TEST_F(ChooseTest, ALimitOnTheLitImageNeedsLight) {
+    Budget budget;
+    budget.jod = 9;
+    EXPECT_THROW(run(budget), Error);
+}
+
+} // namespace
+} // namespace obscura
