@@ -3,7 +3,8 @@
 #include "base/files.h"
 #include "base/version.h"
 #include "image/canvas.h"
-#include "matching/fit.h"
+#include "matching/effort.h"
+#include "matching/freedom.h"
 #include "matching/match_files.h"
 #include "matching/match_sheet.h"
 #include "matching/truths.h"
@@ -45,33 +46,6 @@ std::vector<Truth> truthsOf(const MatchStudy& study, bool train) {
 double pixelsOf(const ImageSize& size) { return 1.0 * size.width * size.height; }
 double renderCost(const ImageSize& size) { return 0.2 + pixelsOf(size) * 0.7e-6; }
 
-// A part of the work takes the share of the progress line that is planned for it, even if less
-// turns out to be needed.
-class Effort {
-  public:
-    explicit Effort(const MatchProgress& progress) : progress_(progress) {}
-    void plan(double cost) { total_ += cost; }
-    void begin(double cost, const std::string& note) {
-        start_ = done_;
-        end_ = start_ + cost;
-        note_ = note;
-        spend(0);
-    }
-    void spend(double cost) { tell(std::min(done_ + cost, end_)); }
-    void reach(double share) { tell(start_ + share * (end_ - start_)); }
-    void end() { tell(end_); }
-
-  private:
-    void tell(double done) {
-        done_ = done;
-        progress_(done_, total_, note_);
-    }
-
-    const MatchProgress& progress_;
-    std::string note_;
-    double start_ = 0, end_ = 0, done_ = 0, total_ = 0;
-};
-
 // One view, and what techniques are compared with there, by name.
 struct Case {
     View view;
@@ -93,46 +67,6 @@ Settings settingsAt(const TechniqueSetting& setting, const View& view, const Val
             settings.set(name, value);
     return settings;
 }
-
-const Parameter* parameterOf(const Settings& settings, std::string_view name) {
-    for (const Parameter& parameter : settings.technique().parameters)
-        if (parameter.name == name)
-            return &parameter;
-    return nullptr;
-}
-
-// Which parameters may be fitted, and between which bounds: those that the technique's row has and
-// the study does not give.
-class Freedom {
-  public:
-    Freedom(const TechniqueSetting& setting, const Settings& settings)
-        : setting_(setting), settings_(settings) {}
-
-    std::optional<Range> range(std::string_view name, double low, double high) const {
-        const Parameter* parameter = parameterOf(settings_, name);
-        const bool given = std::any_of(setting_.settings.begin(), setting_.settings.end(),
-                                       [&](const Setting& each) { return each.name == name; });
-        if (!parameter || given)
-            return std::nullopt;
-        return Range{std::max(low, static_cast<double>(parameter->low)),
-                     std::min(high, static_cast<double>(parameter->high))};
-    }
-    std::optional<Range> multiplier() const { return range("radiusMultiplier", 1.0 / 32, 32); }
-    // The row's own: within four octaves of the default.
-    std::optional<Range> own(const Parameter& parameter) const {
-        const auto value = static_cast<double>(parameter.value);
-        return parameter.fitted ? range(parameter.name, value / 16, value * 16) : std::nullopt;
-    }
-    std::optional<Range> intensity() const { return range("intensity", 1e-4, 100); }
-    std::optional<Range> power() const { return range("power", 0.1, 64); } // of its size
-    double start(std::string_view name) const {
-        return settings_.has(name) ? static_cast<double>(settings_[name]) : 1;
-    }
-
-  private:
-    const TechniqueSetting& setting_;
-    const Settings& settings_;
-};
 
 // Where the last pass clamps more than a few pixels at black, occlusion is rendered fainter: at
 // this intensity a raw visibility down to 1 - 1 / 0.125 is told apart, at an eighth of the

@@ -118,9 +118,9 @@ std::string predictedText(const Plan& plan) {
         if (mayTie)
             table.rows.back().push_back(percent(pair.unsure));
     }
-    return fmt::format("By predicted JOD (ColorVideoVDP), not by people: on {}, people choose by "
-                       "Thurstone's case V, with {:g} % lapses and a position bias of {:g}; the "
-                       "mean of both orders.\n{}\n",
+    return fmt::format("By predicted JOD (ColorVideoVDP), not by people, on {}:\nchoices by "
+                       "Thurstone's case V, {:g} % lapses, position bias {:g}; the mean of both "
+                       "orders.\n{}\n",
                        plan.predictedOn, 100 * plan.lapse, plan.positionBias, alignedText(table));
 }
 

@@ -102,6 +102,11 @@ std::string names(const PricedScale& scale, const PriceAxes& axes) {
                          axes.height() - line - 0.03,
                          heading->isLeft ? heading->x : heading->x + width, axes.height()});
     }
+    for (const auto& place : {scale.enough, scale.untold})
+        if (place) {
+            const double x = axes.x(scale.techniques[place->technique]);
+            taken.push_back({x - 0.01, 0, x + 0.01, axes.height()});
+        }
     for (const double jod : {0.0, -noticeableJod})
         taken.push_back({0, axes.y(jod) - 0.01, axes.width(), axes.y(jod) + 0.01});
     for (std::size_t k = 0; k < scale.front.size(); ++k) { // the staircase

@@ -45,6 +45,24 @@ ViewResult resultOf(const PictureError& matched, const PictureError& lit) {
     return result;
 }
 
+ViewResult resultOn(MeasuredView& seen, const Configuration& configuration) {
+    const ViewErrors errors =
+        seen.errorsOf(seen.probe().visibility(settingsAt(configuration, seen.view().radius, true)));
+    return resultOf(errors.full, errors.lit);
+}
+
+// Candidate::training. Flicker is not known.
+double promise(const Budget& budget, std::span<const ViewResult> views) {
+    double worst = 0;
+    for (const Measure& measure : measures())
+        if (const auto limit = budget.*measure.limit;
+            limit && measure.value != &ViewResult::flicker)
+            worst = std::max(worst, measure.distance(meanOf(views, measure.value)) /
+                                        std::max(measure.distance(*limit), 1e-9));
+    const Measure& by = budget.best ? *budget.best : measureNamed("rmse");
+    return worst > 0 ? worst : by.distance(meanOf(views, by.value));
+}
+
 class Choosing {
   public:
     Choosing(const SweepStudy& study, const Budget& budget, const Folders& folders,
@@ -152,7 +170,7 @@ void Choosing::glance() {
         for (const MatchRow& row : matched.rows)
             if (!row.train && row.stage == "matched" && row.reference == nameOf(study.truth))
                 glances_[technique.name].push_back(row.error.rmse);
-        candidate.rmse = candidate.milliseconds = candidate.trainingRmse = nan;
+        candidate.rmse = candidate.milliseconds = candidate.training = nan;
         if (budget_.rmse && candidate.glanceRmse > farOver(*budget_.rmse))
             candidate.verdict = "RMSE far over the limit at a glance";
         choice_.candidates.push_back(std::move(candidate));
@@ -203,7 +221,7 @@ std::pair<Choosing::Candidates, Choosing::Candidates> Choosing::contenders() {
     for (const Candidate& candidate : choice_.candidates)
         if (budget_.rmse && !budget_.best && candidate.verdict.empty() &&
             farOver(candidate.glanceRmse) <= *budget_.rmse)
-            enough = std::min(enough, candidate.glanceMilliseconds);
+            enough = std::min(enough, candidate.glanceMilliseconds * glanceFactor);
     std::pair<Candidates, Candidates> result;
     for (Candidate& candidate : choice_.candidates)
         if (candidate.verdict.empty())
@@ -240,12 +258,12 @@ void Choosing::fit(const Candidates& contenders) {
         study.techniques.push_back(candidate->configuration.setting);
     const auto fitted = fits(study, "match");
     for (Candidate* candidate : contenders) {
-        std::vector<MatchRow> rows = fitted.at(nameOf(*candidate)).rows;
-        std::erase_if(rows, [](const MatchRow& row) { return !row.train; });
-        for (MatchRow& row : rows)
-            row.train = false; // summaryOf() looks at test views
         candidate->configuration.fitted = fitted.at(nameOf(*candidate)).fitted;
-        candidate->trainingRmse = summaryOf(rows, nameOf(study.truth), "matched").rmse;
+        std::vector<ViewResult> results;
+        for (std::size_t i = 0; i < study.train.size(); ++i)
+            results.push_back(resultOn(stages_.trainingView(i), candidate->configuration));
+        candidate->training = promise(budget_, results);
+        tell("looking at " + nameOf(*candidate));
     }
 }
 
@@ -265,7 +283,7 @@ void Choosing::measure(Candidate& candidate) {
 void Choosing::walk(Candidates contenders) {
     std::stable_sort(
         contenders.begin(), contenders.end(),
-        [](const Candidate* a, const Candidate* b) { return a->trainingRmse < b->trainingRmse; });
+        [](const Candidate* a, const Candidate* b) { return a->training < b->training; });
     for (Candidate* candidate : contenders) {
         if (failures_ == failuresAllowed) {
             candidate->verdict = fmt::format(
@@ -373,7 +391,7 @@ void Choosing::compareWithChosen() {
     Candidates others = withinBudget();
     std::erase(others, &chosen);
     std::stable_sort(others.begin(), others.end(), [](const Candidate* a, const Candidate* b) {
-        return a->trainingRmse > b->trainingRmse;
+        return a->training > b->training;
     });
     for (const Candidate* other : others) {
         std::vector<double> gains; // of the chosen one
@@ -411,6 +429,9 @@ Choice Choosing::run() {
         if (std::find(names.begin(), names.end(), nameOf(candidate)) != names.end())
             rest.push_back(&candidate);
     tryOut(rest);
+    for (Candidate* candidate : rest)
+        if (candidate->rung == Rung::glance && candidate->verdict.empty())
+            candidate->verdict = "dearer at a glance than others that would do";
     compareWithChosen();
     choice_.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() -

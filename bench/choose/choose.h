@@ -32,7 +32,9 @@ struct Candidate {
     // measured.
     double glanceMilliseconds = 0, milliseconds = 0;
     double glanceRmse = 0, rmse = 0;
-    double trainingRmse = 0;       // of the fit on all training views; NaN without one
+    double training = 0; // what orders the fitted ones: the worst of their means on training views
+                         // in shares of the limits, or the distance from the truth where there is
+                         // none; NaN of what was not fitted
     std::vector<ViewResult> views; // from `held_out` on
     std::string verdict;           // why it fell out; "" for the chosen one and those that would do
 };

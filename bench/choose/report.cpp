@@ -56,13 +56,13 @@ std::string fragment(const SweepStudy& study, const Budget& budget, const Choice
 std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
 
 std::string table(const Choice& choice) {
-    std::string text = "configuration,rung,glance_ms,ms,glance_rmse,training_rmse,rmse,verdict\n";
+    std::string text = "configuration,rung,glance_ms,ms,glance_rmse,training,rmse,verdict\n";
     for (const Candidate& candidate : choice.candidates)
-        text += fmt::format("{},{},{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
-                            nameOf(candidate.rung), cell(candidate.glanceMilliseconds),
-                            cell(candidate.milliseconds), cell(candidate.glanceRmse),
-                            cell(candidate.trainingRmse), cell(candidate.rmse),
-                            csvCell(candidate.verdict));
+        text +=
+            fmt::format("{},{},{},{},{},{},{},{}\n", csvCell(nameOf(candidate)),
+                        nameOf(candidate.rung), cell(candidate.glanceMilliseconds),
+                        cell(candidate.milliseconds), cell(candidate.glanceRmse),
+                        cell(candidate.training), cell(candidate.rmse), csvCell(candidate.verdict));
     return text;
 }
 
@@ -132,8 +132,7 @@ std::string dearerOnes(const Choice& choice) {
 std::string reasons(const std::vector<const Candidate*>& candidates) {
     std::vector<std::pair<std::string, std::vector<const Candidate*>>> byVerdict;
     for (const Candidate* candidate : candidates) {
-        const std::string& verdict =
-            candidate->verdict.empty() ? "dearer than others that failed" : candidate->verdict;
+        const std::string& verdict = candidate->verdict;
         auto known = std::find_if(byVerdict.begin(), byVerdict.end(),
                                   [&](const auto& each) { return each.first == verdict; });
         if (known == byVerdict.end())

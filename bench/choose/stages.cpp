@@ -4,14 +4,14 @@
 
 namespace obscura {
 
-MeasuredView& Stages::view(std::size_t i) {
-    const View& view = study_.match.test[i];
-    std::unique_ptr<MeasuredView>& known = views_[i];
+MeasuredView& Stages::known(const View& view, bool training, std::size_t i) {
+    std::unique_ptr<MeasuredView>& known = views_[{training, i}];
     if (!known) {
         Stage& stage = stageOf(view);
         const auto start = std::chrono::steady_clock::now();
         known = std::make_unique<MeasuredView>(
-            stage.subject, stage.tracer, study_, view, study_.sizes.front(), false, folders_,
+            stage.subject, stage.tracer, study_, view,
+            training ? study_.match.training : study_.sizes.front(), false, folders_,
             hashes_.of(view), plan_.cache, [&](double, const std::string& note) { tell_(note); });
         references_ +=
             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -9,7 +9,8 @@
 
 namespace obscura {
 
-// The held-out views of a study, each loaded and traced when first asked for.
+// The views of a study, the training ones at their size and the held-out ones at the first of the
+// sizes to measure, each loaded and traced when first asked for.
 class Stages {
   public:
     // All must outlive it. `tell`: called while a reference is made.
@@ -17,7 +18,8 @@ class Stages {
            const std::function<void(const std::string&)>& tell)
         : study_(study), folders_(folders), plan_(plan), tell_(tell), hashes_(folders) {}
 
-    MeasuredView& view(std::size_t i);
+    MeasuredView& view(std::size_t i) { return known(study_.match.test[i], false, i); }
+    MeasuredView& trainingView(std::size_t i) { return known(study_.match.train[i], true, i); }
     const Scene& scene(std::size_t i) { return stageOf(study_.match.test[i]).scene; }
     std::size_t count() const { return study_.match.test.size(); }
     double secondsForReferences() const { return references_; }
@@ -30,6 +32,7 @@ class Stages {
         Subject subject;
     };
     Stage& stageOf(const View& view);
+    MeasuredView& known(const View& view, bool training, std::size_t i);
 
     const SweepStudy& study_;
     const Folders& folders_;
@@ -37,7 +40,7 @@ class Stages {
     const std::function<void(const std::string&)>& tell_;
     SceneHashes hashes_;
     std::map<std::string, std::unique_ptr<Stage>> stages_;
-    std::map<std::size_t, std::unique_ptr<MeasuredView>> views_;
+    std::map<std::pair<bool, std::size_t>, std::unique_ptr<MeasuredView>> views_;
     double references_ = 0;
 };
 

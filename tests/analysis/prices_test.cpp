@@ -221,13 +221,13 @@ TEST(Prices, OverAllScenesAreMeans) {
     for (ConditionRecord& condition : findings.stimuli->conditions)
         for (ImageRecord& image : condition.images)
             if (condition.view == "figures" && image.name == "Crytek24") {
-                image.milliseconds = 2;
+                image.milliseconds = 8;
                 image.quality->jod = 8;
             }
     const std::vector<PricedScale> all = pricesOf(findings);
     ASSERT_EQ(all.size(), 3u);
     ASSERT_TRUE(all[2].group.isPooled());
-    EXPECT_NEAR(*all[2].techniques[1].milliseconds, 1, 1e-12); // of 0.5 and 2
+    EXPECT_NEAR(*all[2].techniques[1].milliseconds, 2, 1e-12); // of 0.5 and 8
     EXPECT_NEAR(*all[2].techniques[1].predicted, -2.5, 1e-12); // of -3 and -2
 }
 

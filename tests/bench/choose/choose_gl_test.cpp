@@ -109,18 +109,18 @@ TEST_F(ChooseTest, TriesUntilThreeFail) {
     budget.flip = 1e-6; // what nothing meets, and a glance does not look at
     const Choice choice = run(budget);
     EXPECT_FALSE(choice.chosen);
-    double worstTried = 0, bestLeft = 1;
+    double worstTried = 0, bestLeft = 1e9;
     int tried = 0;
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_NE(candidate.verdict, "");
         EXPECT_EQ(candidate.views.size(), candidate.rung == Rung::held_out ? 3u : 0u);
         EXPECT_EQ(std::isnan(candidate.milliseconds), candidate.views.empty());
-        if (std::isnan(candidate.trainingRmse))
+        if (std::isnan(candidate.training))
             continue; // left out at a glance
         tried += candidate.rung == Rung::held_out;
         (candidate.rung == Rung::held_out ? worstTried : bestLeft) =
-            candidate.rung == Rung::held_out ? std::max(worstTried, candidate.trainingRmse)
-                                             : std::min(bestLeft, candidate.trainingRmse);
+            candidate.rung == Rung::held_out ? std::max(worstTried, candidate.training)
+                                             : std::min(bestLeft, candidate.training);
     }
     EXPECT_EQ(tried, 3);
     EXPECT_LE(worstTried, bestLeft);

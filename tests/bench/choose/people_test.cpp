@@ -41,13 +41,13 @@ TEST(People, TheCheapestThatTheyDoNotTellSetsTheLimit) {
 
 // A limit that is enough in every scene and level.
 TEST(People, TheStrictestSceneSetsTheLimit) {
-    const PeopleLimit limit = limitFrom(ladder + R"(nave,dusk,none,none,0,-0.1,-0.3,0.1,9.8,0.05
-nave,dusk,gtao,dear,3,0,-0.2,0.2,9.9,0.02
-nave,dusk,ray_traced,truth,,0,,,10,0
+    const PeopleLimit limit = limitFrom(ladder + R"(aisle,dusk,none,none,0,-0.1,-0.3,0.1,9.8,0.05
+aisle,dusk,gtao,dear,3,0,-0.2,0.2,9.9,0.02
+aisle,dusk,ray_traced,truth,,0,,,10,0
 )",
                                         0.5);
     EXPECT_NEAR(limit.jod, 9.8, 1e-12);
-    EXPECT_THAT(limit.words, HasSubstr("nave, dusk: none (0 ms)"));
+    EXPECT_THAT(limit.words, HasSubstr("aisle, dusk: none (0 ms)"));
     EXPECT_THAT(limit.words, HasSubstr("hall, sky"));
 }
 

@@ -47,7 +47,7 @@ Candidate candidate(const std::string& name, double milliseconds, const std::vec
     made.configuration.setting.technique = "gtao";
     made.glanceMilliseconds = milliseconds;
     made.glanceRmse = 0.1;
-    made.milliseconds = made.rmse = made.trainingRmse = std::nan("");
+    made.milliseconds = made.rmse = made.training = std::nan("");
     if (rmse.empty())
         return made;
     made.rung = Rung::held_out;
@@ -117,7 +117,7 @@ TEST_F(ChooseReportTest, SaysWhatCameNearestAndWhatWouldAdmitIt) {
                                 "these 3, for the mean itself meets the limit"));
     EXPECT_LT(text.find("\n  dear"), text.find("\n  right")); // ordered by nearness
     EXPECT_LT(text.find("\n  right"), text.find("\n  cheap"));
-    EXPECT_THAT(text, HasSubstr("more views would not, for its mean is over the limit"));
+    EXPECT_THAT(text, HasSubstr("more views would not, for its mean misses the limit"));
     EXPECT_THAT(text, HasSubstr("Not measured:\n  left out"));
 }
 

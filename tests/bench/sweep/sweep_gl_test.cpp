@@ -170,9 +170,9 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     // What is written is what a study takes by include, as it was matched.
     writeChoice(folder_ / "choice", study_, ".", paid, choice);
     const std::size_t techniques = text.find("[techniques]");
-    writeFile(folder_ / "choice" / "study.toml",
+    writeFile(folder_ / "choice" / "included.toml",
               "include = [\"choice.toml\"]\n" + text.substr(0, techniques));
-    const MatchStudy included = readSweepStudy(folder_ / "choice" / "study.toml").match;
+    const MatchStudy included = readSweepStudy(folder_ / "choice" / "included.toml").match;
     ASSERT_EQ(included.techniques.size(), 1u);
     const Configuration& wanted = choice.candidates[*choice.chosen].configuration;
     EXPECT_EQ(settingsOf(included.techniques[0], 0.2).named(),
