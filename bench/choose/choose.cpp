@@ -17,6 +17,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace obscura {
 
@@ -109,6 +110,7 @@ class Choosing {
     gl::TimingChoice timing_;
     Choice choice_;
     std::map<std::string, std::vector<double>> glances_; // RMSE on each view, by name
+    std::set<std::string> dominated_;                    // names
     int failures_ = 0;                                   // of candidates on held-out views
     double done_ = 0;                                    // in candidates, each rung counting alike
 };
@@ -207,15 +209,18 @@ void Choosing::dropDominated() {
         for (const Candidate& other : choice_.candidates) {
             const double most = budget_.best ? *budget_.milliseconds : candidate.glanceMilliseconds;
             if (candidate.verdict.empty() && other.glanceMilliseconds * glanceFactor <= most &&
-                isBetter(other, candidate))
+                isBetter(other, candidate)) {
+                dominated_.insert(nameOf(candidate));
                 candidate.verdict =
                     fmt::format("{} ({:.3g} ms, RMSE {:.3f}) is preferable at a glance",
                                 nameOf(other), other.glanceMilliseconds, other.glanceRmse);
+            }
         }
 }
 
-// Those that a glance left: first those that may be the answer, then those that are dearer than
-// one that is as far within the limit as those that fell out are over it.
+// First those that may be the answer. Then those that wait until none of these will do: dearer than
+// one that is as far within the limit as those that fell out are over it or, asked for the best,
+// not preferable to one that will after all not do.
 std::pair<Choosing::Candidates, Choosing::Candidates> Choosing::contenders() {
     double enough = std::numeric_limits<double>::infinity();
     for (const Candidate& candidate : choice_.candidates)
@@ -227,6 +232,8 @@ std::pair<Choosing::Candidates, Choosing::Candidates> Choosing::contenders() {
         if (candidate.verdict.empty())
             (candidate.glanceMilliseconds <= enough ? result.first : result.second)
                 .push_back(&candidate);
+        else if (budget_.best && dominated_.contains(nameOf(candidate)))
+            result.second.push_back(&candidate);
     if (result.first.empty())
         result.first = nearestAtAGlance();
     return result;
@@ -411,9 +418,9 @@ Choice Choosing::run() {
     glance();
     timeAll();
     dropDominated();
-    const auto [near, far] = contenders();
+    const auto [near, waiting] = contenders();
     std::vector<std::string> names; // places change as candidates are put into order
-    for (const Candidate* candidate : far)
+    for (const Candidate* candidate : waiting)
         names.push_back(nameOf(*candidate));
     const auto tryOut = [&](const Candidates& some) {
         if (some.empty() || choice_.chosen || failures_ == failuresAllowed)

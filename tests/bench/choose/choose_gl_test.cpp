@@ -102,6 +102,21 @@ TEST_F(ChooseTest, TheBestWithinATime) {
     EXPECT_EQ(chosenOf(run(budget)), "none");
 }
 
+// What is not preferable at a glance is tried after all when what seemed so does not do: near the
+// border of the picture all but no occlusion fail.
+TEST_F(ChooseTest, WhatWasNotPreferableWaits) {
+    Budget budget;
+    budget.best = &measureNamed("rmse");
+    budget.milliseconds = 1e6;
+    budget.failures = {"border"};
+    const Choice choice = run(budget);
+    ASSERT_EQ(chosenOf(choice), "none");
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.rung == Rung::held_out) {
+            EXPECT_THAT(candidate.verdict, testing::StartsWith("border: "));
+        }
+}
+
 // Candidates are measured in the order of their errors on training views, until three have failed;
 // the others are not tried, and only what was tried has results.
 TEST_F(ChooseTest, TriesUntilThreeFail) {
