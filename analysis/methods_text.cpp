@@ -119,16 +119,42 @@ std::string claimsOf(const Findings& findings) {
                        fmt::join(texts, "; "));
 }
 
+// Of scales that answer the question, not of those beside them.
+std::string scalesOf(const Findings& findings) {
+    std::vector<std::string> texts;
+    for (const auto& [kind, result] : findings.scales.all) {
+        if (!kind->isLeading || result.items.empty() || result.curve)
+            continue;
+        std::string text = fmt::format("{} (in {}; {}; intervals: {})", kind->heading, result.unit,
+                                       kind->source, result.intervals);
+        if (std::find(texts.begin(), texts.end(), text) == texts.end())
+            texts.push_back(std::move(text));
+    }
+    std::string said = texts.empty() ? "" : fmt::format(" Scales: {}.", fmt::join(texts, "; "));
+    if (findings.stimuli && findings.stimuli->display)
+        said += fmt::format(" JOD were predicted by ColorVideoVDP (Mantiuk et al. 2024) for a "
+                            "display of {}.",
+                            inWords(*findings.stimuli->display));
+    if (findings.stimuli && findings.stimuli->timing)
+        said +=
+            fmt::format(" Times of techniques: {} ({}, {}).", findings.stimuli->timing->method,
+                        findings.stimuli->timing->renderer, findings.stimuli->timing->processor);
+    return said;
+}
+
 std::string analysis(const Findings& findings) {
     std::vector<std::string> sources;
     for (const Tested& tested : findings.tests)
         if (std::find(sources.begin(), sources.end(), tested.kind->source) == sources.end())
             sources.emplace_back(tested.kind->source);
     std::string text = claimsOf(findings);
-    text += fmt::format(" Of each condition, the votes for a and b were compared with an even "
+    if (!findings.tallies.empty())
+        text +=
+            fmt::format(" Of each condition, the votes for a and b were compared with an even "
                         "split by the exact two-sided binomial test at .05, with p corrected by "
                         "Holm within each {} and intervals of 95 % by Clopper and Pearson (1934).",
                         findings.claims.empty() ? "hypothesis" : "claim");
+    text += scalesOf(findings);
     if (!sources.empty())
         text += fmt::format(" Beyond single conditions, without correction: {}.",
                             fmt::join(sources, "; "));

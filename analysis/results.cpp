@@ -158,7 +158,8 @@ std::string resultsJson(const Findings& findings) {
         Json items = Json::array();
         for (const auto& [item, numbers] : scale.items)
             items.push_back({{"name", item}, {"statistics", objectOf(numbers)}});
-        json["scales"].push_back({{"scale", scale.id},
+        json["scales"].push_back({{"subject", scale.subject},
+                                  {"scale", scale.id},
                                   {"question", scale.question},
                                   {"scene", scale.scene},
                                   {"level", scale.level},

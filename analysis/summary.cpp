@@ -306,14 +306,16 @@ bool isUnusable(const Findings& findings) {
 
 std::vector<std::string> summaryOf(const Findings& findings) {
     std::vector<std::string> sentences;
-    if (findings.tallies.empty()) {
-        sentences = {extent(findings)};
-        add(scaleSentences(findings.scales), sentences);
-        add(pricesOf(findings), sentences);
-        return sentences;
-    }
     for (const ClaimResult& claim : findings.claims)
         sentences.push_back(sentenceOf(claim));
+    if (findings.tallies.empty()) {
+        add(pricesOf(findings), sentences);
+        sentences.push_back(extent(findings));
+        add(scaleSentences(findings.scales), sentences);
+        return sentences;
+    }
+    if (!isUnusable(findings))
+        add(pricesOf(findings), sentences);
     for (const std::string& sentence :
          {extent(findings), declaredOrNot(findings), differences(findings), uncorrected(findings),
           disagreement(findings), evenSplits(findings), notEquivalence(findings),
@@ -323,7 +325,6 @@ std::vector<std::string> summaryOf(const Findings& findings) {
     if (isUnusable(findings))
         return sentences;
     add(scaleSentences(findings.scales), sentences);
-    add(pricesOf(findings), sentences);
     if (findings.people)
         add(peopleSentences(*findings.people, findings.tallies, findings.tests), sentences);
     return sentences;

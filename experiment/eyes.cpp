@@ -29,13 +29,13 @@ int stepOf(double jods) { return static_cast<int>(std::lround(jods)); }
 Eyes::Eyes(const Protocol& protocol, const Manifest& stimuli, Random random)
     : protocol_(protocol), display_(stimuli.display ? inWords(*stimuli.display) : ""),
       observer_{protocol.simulation.lapse, protocol.simulation.positionBias}, random_(random),
-      triads_(asksOfTriads(protocol.trial)),
-      flickers_(protocol.boost && !isOrdered(protocol.trial, protocol.boost->reference)) {
+      triads_(asksOfTriads(protocol.trial)) {
     for (const Condition& condition : protocol.conditions) {
         std::map<std::string, double>& jods = jods_.emplace_back();
         for (const Role& role : condition.roles)
             if (isOrdered(protocol.trial, role.name) || (triads_ && role.name == "b"))
                 jods[role.name] = predictedJod(stimuli, condition.id, role.name);
+        asksForWorse_.push_back(asksForWorse(protocol, condition, stimuli));
     }
 }
 
@@ -53,20 +53,13 @@ void Eyes::look(const Upcoming& trial) {
     std::map<std::string, double> seen = jods_.at(condition);
     for (auto& [role, worth] : seen)
         worth += lookDeviation * random_.normal();
-    const std::map<std::string, double>& jods = jods_[condition];
-    const std::string& correct = protocol_.conditions[condition].correct;
-    // Who is asked for an image that others excel is asked for the worse.
-    const bool isWorse =
-        jods.contains(correct) && std::any_of(jods.begin(), jods.end(), [&](const auto& other) {
-            return other.second > jods.at(correct);
-        });
     worths_.clear();
     scores_.clear();
     for (const std::string& role : trial.order) {
         worths_.push_back(seen.at(role));
-        scores_.push_back(triads_                ? std::abs(seen.at(role) - seen.at("b"))
-                          : isWorse || flickers_ ? -seen.at(role)
-                                                 : seen.at(role));
+        scores_.push_back(triads_                    ? std::abs(seen.at(role) - seen.at("b"))
+                          : asksForWorse_[condition] ? -seen.at(role)
+                                                     : seen.at(role));
     }
     if (scores_.size() == 2)
         scores_[1] += observer_.advantage();

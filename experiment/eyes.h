@@ -40,7 +40,8 @@ class Eyes {
     ThurstoneObserver observer_;
     Random random_;
     std::vector<std::map<std::string, double>> jods_; // of each condition, by role
-    bool triads_, flickers_;
+    std::vector<bool> asksForWorse_;                  // of each condition
+    bool triads_;
 
     // Of the trial.
     bool lapsed_ = false;

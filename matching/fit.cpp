@@ -23,48 +23,58 @@ constexpr double meanPenalty = 100;
 // Errors that differ by less are the same: where the data do not say, what was given stays.
 constexpr double tie = 1e-9;
 
-// What a remap is fitted by: logarithms of the values that are free.
+// A curve that flattens must save a tenth of the mean square. What it saves less than that on
+// training views, it often loses on others (docs/techniques.md).
+constexpr double flatteningCost = 1 / 0.9;
+
+// Those of powers above 0 and below; exp() is between, and among both.
+enum class Curves { toBlack, flattening };
+
+// What a remap is fitted by: the logarithm of the one value that is free; or, where both are, the
+// logarithm of intensity x |power| (how fast visibility falls at first) and asinh(1 / power) (how
+// it goes on: above 0 to black, at 0 as exp(), below 0 flattening).
 class RemapObjective {
   public:
-    RemapObjective(const Comparison& comparison, const Tunable& tunable, Criterion criterion)
-        : comparison_(comparison), start_(tunable.start), criterion_(criterion) {
-        if (tunable.intensity)
-            free_.push_back({&Remap::intensity, *tunable.intensity});
-        if (tunable.power)
-            free_.push_back({&Remap::power, *tunable.power});
-        // Mean occlusion grows with either value, so the first follows from the rest.
-        if (criterion == Criterion::equalMean && !free_.empty()) {
-            solved_ = free_.front();
-            free_.erase(free_.begin());
+    RemapObjective(const Comparison& comparison, const Tunable& tunable, Curves curves,
+                   Criterion criterion)
+        : comparison_(comparison), tunable_(tunable), criterion_(criterion) {
+        const Remap& start = tunable.start;
+        if (bothFree()) {
+            const double bend = std::asinh(1 / tunable.power->low);
+            axes_ = {{std::log(0.01), std::log(1000), std::log(start.intensity * size(start))},
+                     {curves == Curves::flattening ? -bend : 0.0,
+                      curves == Curves::toBlack ? bend : 0.0, std::asinh(1 / start.power)}};
+        } else if (const auto& range = tunable.intensity ? tunable.intensity : tunable.power) {
+            axes_ = {{std::log(range->low), std::log(range->high),
+                      std::log(tunable.intensity ? start.intensity : size(start))}};
+        }
+        for (Axis& axis : axes_) {
+            startsInside_ &= axis.low <= axis.start && axis.start <= axis.high;
+            axis.start = std::clamp(axis.start, axis.low, axis.high);
+        }
+        // Mean occlusion grows along the first axis, so that follows from the rest.
+        if (criterion == Criterion::equalMean && !axes_.empty()) {
+            solved_ = axes_.front();
+            axes_.erase(axes_.begin());
         }
     }
 
-    std::size_t dimensions() const { return free_.size(); }
-    std::vector<double> bounds(double Range::*end) const {
-        std::vector<double> result;
-        for (const Free& value : free_)
-            result.push_back(std::log(value.range.*end));
-        return result;
-    }
-    std::vector<double> start() const {
-        std::vector<double> result;
-        for (const Free& value : free_)
-            result.push_back(
-                std::log(std::clamp(start_.*value.member, value.range.low, value.range.high)));
-        return result;
+    std::size_t dimensions() const { return axes_.size(); }
+    std::vector<double> low() const { return ofAxes(&Axis::low); }
+    std::vector<double> high() const { return ofAxes(&Axis::high); }
+    std::vector<double> start() const { return ofAxes(&Axis::start); }
+
+    Remap remap(const std::vector<double>& at) const {
+        if (!solved_)
+            return startsInside_ && at == start() ? tunable_.start : remapOf(at);
+        std::vector<double> all{0};
+        all.insert(all.end(), at.begin(), at.end());
+        all[0] = solve(all);
+        return remapOf(all);
     }
 
-    Remap remap(const std::vector<double>& logarithms) const {
-        Remap result = start_;
-        for (std::size_t i = 0; i < free_.size(); ++i)
-            result.*free_[i].member = std::exp(logarithms[i]);
-        if (solved_)
-            result.*solved_->member = solve(result);
-        return result;
-    }
-
-    double operator()(const std::vector<double>& logarithms) const {
-        const Remap tried = remap(logarithms);
+    double operator()(const std::vector<double>& at) const {
+        const Remap tried = remap(at);
         double error = comparison_.meanSquare(tried);
         if (criterion_ == Criterion::equalMean) {
             const double difference = comparison_.meanDifference(tried);
@@ -74,39 +84,64 @@ class RemapObjective {
     }
 
   private:
-    struct Free {
-        double Remap::*member;
-        Range range;
+    struct Axis {
+        double low, high, start;
     };
 
-    // The value that gives the target's mean, or the end of the range that comes nearest.
-    double solve(Remap remap) const {
-        const auto difference = [&](double logarithm) {
-            remap.*solved_->member = std::exp(logarithm);
-            return comparison_.meanDifference(remap);
+    static double size(const Remap& remap) { return std::abs(remap.power); }
+    bool bothFree() const { return tunable_.intensity && tunable_.power; }
+    std::vector<double> ofAxes(double Axis::*value) const {
+        std::vector<double> result;
+        for (const Axis& axis : axes_)
+            result.push_back(axis.*value);
+        return result;
+    }
+
+    // Of all axes, the solved one included.
+    Remap remapOf(const std::vector<double>& at) const {
+        Remap result = tunable_.start;
+        if (bothFree()) {
+            double inverse = std::sinh(at[1]);
+            inverse = std::copysign(std::max(std::abs(inverse), 1 / tunable_.power->high), inverse);
+            result.power = 1 / inverse;
+            result.intensity = std::clamp(std::exp(at[0]) * std::abs(inverse),
+                                          tunable_.intensity->low, tunable_.intensity->high);
+        } else if (tunable_.intensity) {
+            result.intensity = std::exp(at[0]);
+        } else if (tunable_.power) {
+            result.power = std::copysign(std::exp(at[0]), result.power);
+        }
+        return result;
+    }
+
+    // Where on the solved axis the target's mean is met, or the end that comes nearest.
+    double solve(std::vector<double> at) const {
+        const auto difference = [&](double value) {
+            at[0] = value;
+            return comparison_.meanDifference(remapOf(at));
         };
-        const double low = std::log(solved_->range.low), high = std::log(solved_->range.high);
-        const double atLow = difference(low), atHigh = difference(high);
+        const double atLow = difference(solved_->low), atHigh = difference(solved_->high);
         if (atLow * atHigh >= 0)
-            return std::abs(atLow) < std::abs(atHigh) ? solved_->range.low : solved_->range.high;
+            return std::abs(atLow) < std::abs(atHigh) ? solved_->low : solved_->high;
         std::uintmax_t steps = 60;
-        const auto [left, right] =
-            boost::math::tools::toms748_solve(difference, low, high, atLow, atHigh,
-                                              boost::math::tools::eps_tolerance<double>(30), steps);
-        return std::exp((left + right) / 2);
+        const auto [left, right] = boost::math::tools::toms748_solve(
+            difference, solved_->low, solved_->high, atLow, atHigh,
+            boost::math::tools::eps_tolerance<double>(30), steps);
+        return (left + right) / 2;
     }
 
     const Comparison& comparison_;
-    Remap start_;
+    Tunable tunable_;
     Criterion criterion_;
-    std::vector<Free> free_;
-    std::optional<Free> solved_;
+    std::vector<Axis> axes_;
+    std::optional<Axis> solved_;
+    bool startsInside_ = true;
 };
 
 // The best point of a grid over the bounds, and the start.
 std::vector<double> coarsely(const RemapObjective& objective) {
-    constexpr int steps = 9;
-    const auto low = objective.bounds(&Range::low), high = objective.bounds(&Range::high);
+    constexpr int steps = 13;
+    const std::vector<double> low = objective.low(), high = objective.high();
     std::vector<double> best = objective.start();
     double least = objective(best);
     int points = 1;
@@ -125,11 +160,39 @@ std::vector<double> coarsely(const RemapObjective& objective) {
     return best;
 }
 
+FittedRemap fitAmong(Curves curves, const Comparison& comparison, const Tunable& tunable,
+                     Criterion criterion) {
+    RemapObjective objective(comparison, tunable, curves, criterion);
+    std::vector<double> at = coarsely(objective);
+    if (objective.dimensions() > 0) {
+        nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(objective.dimensions()));
+        search.set_min_objective(
+            [](const std::vector<double>& x, std::vector<double>&, void* data) {
+                return (*static_cast<RemapObjective*>(data))(x);
+            },
+            &objective);
+        const std::vector<double> low = objective.low(), high = objective.high();
+        search.set_lower_bounds(low);
+        search.set_upper_bounds(high);
+        search.set_initial_step(0.3);
+        search.set_xtol_abs(1e-4);
+        search.set_maxeval(500);
+        std::vector<double> moved = at;
+        for (std::size_t i = 0; i < at.size(); ++i) // a grid's end, rounded, may lie outside
+            moved[i] = std::clamp(at[i], low[i], high[i]);
+        double error = 0;
+        search.optimize(moved, error);
+        if (error < objective(at) - tie)
+            at = moved;
+    }
+    return {objective.remap(at), objective(at)};
+}
+
 } // namespace
 
 double remapped(double visibility, const Remap& remap) {
-    return std::min(std::pow(std::max(1 - remap.intensity * (1 - visibility), 0.0), remap.power),
-                    1.0);
+    const double occlusion = std::copysign(remap.intensity, remap.power) * (1 - visibility);
+    return std::min(std::pow(std::max(1 - occlusion, 0.0), remap.power), 1.0);
 }
 
 void Comparison::add(const Image& image, double probe, const Image& target,
@@ -178,30 +241,12 @@ bool Comparison::constant() const {
 }
 
 FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Criterion criterion) {
-    RemapObjective objective(comparison, tunable, criterion);
-    std::vector<double> at = coarsely(objective);
-    if (objective.dimensions() > 0) {
-        nlopt::opt search(nlopt::LN_SBPLX, static_cast<unsigned>(objective.dimensions()));
-        search.set_min_objective(
-            [](const std::vector<double>& x, std::vector<double>&, void* data) {
-                return (*static_cast<RemapObjective*>(data))(x);
-            },
-            &objective);
-        const auto low = objective.bounds(&Range::low), high = objective.bounds(&Range::high);
-        search.set_lower_bounds(low);
-        search.set_upper_bounds(high);
-        search.set_initial_step(0.3);
-        search.set_xtol_abs(1e-4);
-        search.set_maxeval(500);
-        std::vector<double> moved = at;
-        for (std::size_t i = 0; i < at.size(); ++i) // a grid's end, rounded, may lie outside
-            moved[i] = std::clamp(at[i], low[i], high[i]);
-        double error = 0;
-        search.optimize(moved, error);
-        if (error < objective(at) - tie)
-            at = moved;
-    }
-    return {objective.remap(at), objective(at)};
+    FittedRemap best = fitAmong(Curves::toBlack, comparison, tunable, criterion);
+    if (!tunable.intensity || !tunable.power)
+        return best;
+    FittedRemap flat = fitAmong(Curves::flattening, comparison, tunable, criterion);
+    flat.error *= flatteningCost;
+    return flat.error < best.error - tie ? flat : best;
 }
 
 double fitMultiplier(const std::function<double(double)>& error, double start, Range range) {
@@ -235,6 +280,46 @@ double fitMultiplier(const std::function<double(double)>& error, double start, R
                                           std::max(centre - 1, low) + 16,
                                           std::min(centre + 1, high) + 16, 10, evaluations);
     return std::clamp(start * std::exp2(least()), range.low, range.high);
+}
+
+std::vector<double> fitScales(const std::function<double(const std::vector<double>&)>& error,
+                              const std::vector<double>& start, const std::vector<Range>& ranges) {
+    std::vector<double> best = start;
+    double least = error(start);
+    std::function<double(const std::vector<double>&)> atOctaves = [&](const auto& x) {
+        std::vector<double> at;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            at.push_back(std::clamp(std::exp2(x[i]), ranges[i].low, ranges[i].high));
+        const double found = error(at);
+        if (found < least - tie) {
+            least = found;
+            best = at;
+        }
+        return found;
+    };
+    std::vector<double> octaves, low, high;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        octaves.push_back(std::log2(start[i]));
+        low.push_back(std::log2(ranges[i].low));
+        high.push_back(std::log2(ranges[i].high));
+    }
+    nlopt::opt search(nlopt::LN_NELDERMEAD, static_cast<unsigned>(start.size()));
+    search.set_min_objective(
+        [](const std::vector<double>& x, std::vector<double>&, void* data) {
+            return (*static_cast<decltype(atOctaves)*>(data))(x);
+        },
+        &atOctaves);
+    search.set_lower_bounds(low);
+    search.set_upper_bounds(high);
+    search.set_initial_step(0.5);
+    search.set_xtol_abs(0.03);
+    search.set_maxeval(fitScalesEvaluations);
+    double unused = 0;
+    try {
+        search.optimize(octaves, unused);
+    } catch (const nlopt::roundoff_limited&) { // flat: what was found stands
+    }
+    return best;
 }
 
 } // namespace obscura

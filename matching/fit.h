@@ -15,7 +15,8 @@ struct Range {
 };
 
 // The last step of every technique (renderer/techniques/technique.h): visibility v becomes
-// max(0, 1 - intensity (1 - v))^power, at most 1.
+// max(0, 1 - intensity (1 - v))^power, or with a power below 0 (1 + intensity (1 - v))^power, at
+// most 1.
 struct Remap {
     double intensity = 1, power = 1;
 };
@@ -50,7 +51,10 @@ enum class Criterion {
     equalMean // least squares among the remaps that give the target's mean
 };
 
-// Which values may change, and between which bounds; the others stay as they are in `start`.
+// Which values may change, and between which bounds; the others stay as they are in `start`. The
+// power's are of its size: it keeps its sign where the intensity is held. Where both are free they
+// are fitted as their product and 1 / power, which is 0 for exp(); the bound of the power's size
+// stands for that. Powers below 0 are taken where they save a tenth of the error.
 struct Tunable {
     Remap start;
     std::optional<Range> intensity, power;
@@ -58,7 +62,8 @@ struct Tunable {
 
 struct FittedRemap {
     Remap remap;
-    double error = 0; // mean square, with a penalty for a mean that cannot be met
+    // Mean square, a ninth more for a power below 0, with a penalty for a mean that cannot be met.
+    double error = 0;
 };
 FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Criterion criterion);
 
@@ -66,5 +71,11 @@ FittedRemap fitRemap(const Comparison& comparison, const Tunable& tunable, Crite
 // until the least is bracketed, then Brent's method to a few percent. Each evaluation is expensive.
 double fitMultiplier(const std::function<double(double)>& error, double start, Range range);
 constexpr int fitMultiplierEvaluations = 13; // about
+
+// The same for several arguments that depend on each other, nearby: at most that many evaluations
+// of NLopt's Nelder-Mead from `start`, which stays unless something is better.
+std::vector<double> fitScales(const std::function<double(const std::vector<double>&)>& error,
+                              const std::vector<double>& start, const std::vector<Range>& ranges);
+constexpr int fitScalesEvaluations = 30;
 
 } // namespace obscura

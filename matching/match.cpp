@@ -3,7 +3,8 @@
 #include "base/files.h"
 #include "base/version.h"
 #include "image/canvas.h"
-#include "matching/fit.h"
+#include "matching/effort.h"
+#include "matching/freedom.h"
 #include "matching/match_files.h"
 #include "matching/match_sheet.h"
 #include "matching/truths.h"
@@ -45,33 +46,6 @@ std::vector<Truth> truthsOf(const MatchStudy& study, bool train) {
 double pixelsOf(const ImageSize& size) { return 1.0 * size.width * size.height; }
 double renderCost(const ImageSize& size) { return 0.2 + pixelsOf(size) * 0.7e-6; }
 
-// A part of the work takes the share of the progress line that is planned for it, even if less
-// turns out to be needed.
-class Effort {
-  public:
-    explicit Effort(const MatchProgress& progress) : progress_(progress) {}
-    void plan(double cost) { total_ += cost; }
-    void begin(double cost, const std::string& note) {
-        start_ = done_;
-        end_ = start_ + cost;
-        note_ = note;
-        spend(0);
-    }
-    void spend(double cost) { tell(std::min(done_ + cost, end_)); }
-    void reach(double share) { tell(start_ + share * (end_ - start_)); }
-    void end() { tell(end_); }
-
-  private:
-    void tell(double done) {
-        done_ = done;
-        progress_(done_, total_, note_);
-    }
-
-    const MatchProgress& progress_;
-    std::string note_;
-    double start_ = 0, end_ = 0, done_ = 0, total_ = 0;
-};
-
 // One view, and what techniques are compared with there, by name.
 struct Case {
     View view;
@@ -93,41 +67,6 @@ Settings settingsAt(const TechniqueSetting& setting, const View& view, const Val
             settings.set(name, value);
     return settings;
 }
-
-const Parameter* parameterOf(const Settings& settings, std::string_view name) {
-    for (const Parameter& parameter : settings.technique().parameters)
-        if (parameter.name == name)
-            return &parameter;
-    return nullptr;
-}
-
-// Which of the three common parameters may be fitted, and between which bounds: those that the
-// technique's row has and the study does not give.
-class Freedom {
-  public:
-    Freedom(const TechniqueSetting& setting, const Settings& settings)
-        : setting_(setting), settings_(settings) {}
-
-    std::optional<Range> range(std::string_view name, double low, double high) const {
-        const Parameter* parameter = parameterOf(settings_, name);
-        const bool given = std::any_of(setting_.settings.begin(), setting_.settings.end(),
-                                       [&](const Setting& each) { return each.name == name; });
-        if (!parameter || given)
-            return std::nullopt;
-        return Range{std::max(low, static_cast<double>(parameter->low)),
-                     std::min(high, static_cast<double>(parameter->high))};
-    }
-    std::optional<Range> multiplier() const { return range("radiusMultiplier", 1.0 / 32, 32); }
-    std::optional<Range> intensity() const { return range("intensity", 0.01, 100); }
-    std::optional<Range> power() const { return range("power", 0.1, 10); }
-    double start(std::string_view name) const {
-        return settings_.has(name) ? static_cast<double>(settings_[name]) : 1;
-    }
-
-  private:
-    const TechniqueSetting& setting_;
-    const Settings& settings_;
-};
 
 // Where the last pass clamps more than a few pixels at black, occlusion is rendered fainter: at
 // this intensity a raw visibility down to 1 - 1 / 0.125 is told apart, at an eighth of the
@@ -163,9 +102,9 @@ class Matching {
     std::string keyOf(const TechniqueSetting& setting);
     MatchedTechnique matched(const TechniqueSetting& setting);
     Image visibility(const Case& at, const Settings& settings);
-    Image rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
+    Image rawVisibility(const TechniqueSetting& setting, const Case& at, Values tried,
                         double& probe);
-    FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, double multiplier,
+    FittedRemap fitAt(const TechniqueSetting& setting, const Freedom& freedom, const Values& tried,
                       double& probe);
     Values fit(const TechniqueSetting& setting, std::string& note);
     std::vector<MatchRow> measure(const TechniqueSetting& setting, const Values& values,
@@ -175,7 +114,7 @@ class Matching {
     const ImageSize& size(const Case& at) const {
         return at.train ? study_.training : study_.image;
     }
-    double techniqueCost() const;
+    double techniqueCost(const TechniqueSetting& setting) const;
 
     const MatchStudy& study_;
     const Folders& folders_;
@@ -194,11 +133,17 @@ class Matching {
     MatchResult result_;
 };
 
-double Matching::techniqueCost() const {
+double Matching::techniqueCost(const TechniqueSetting& setting) const {
+    const Settings settings = settingsOf(setting, study_.train.front().radius);
+    const Freedom freedom(setting, settings);
+    const std::span<const Parameter> parameters = settings.technique().parameters;
+    const bool own = std::any_of(parameters.begin(), parameters.end(), [&](const Parameter& each) {
+        return freedom.own(each).has_value();
+    });
     const auto train = static_cast<double>(study_.train.size()),
                test = static_cast<double>(study_.test.size());
-    return (fitMultiplierEvaluations + 2) * train * renderCost(study_.training) +
-           2 * test * renderCost(study_.image);
+    const int evaluations = fitMultiplierEvaluations + 2 + (own ? fitScalesEvaluations : 0);
+    return evaluations * train * renderCost(study_.training) + 2 * test * renderCost(study_.image);
 }
 
 // Everything that can be wrong with the study shows here, before the first ray.
@@ -216,7 +161,7 @@ void Matching::plan() {
             throw Error(setting.place, "expected a partner that darkens, found one without passes");
         keys_.push_back(keyOf(setting));
         if (!finished_.find(keys_.back()))
-            effort_.plan(techniqueCost());
+            effort_.plan(techniqueCost(setting));
     }
 }
 
@@ -323,11 +268,11 @@ Image Matching::visibility(const Case& at, const Settings& settings) {
     return at.probe->visibility(settings, known->second);
 }
 
-// Raw visibility at a multiplier; `probe` is the intensity to try, and falls when that clamps.
-Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, double multiplier,
+// Raw visibility; `probe` is the intensity to try, and falls when that clamps.
+Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, Values tried,
                               double& probe) {
-    Settings settings =
-        settingsAt(setting, at.view, {{"radiusMultiplier", multiplier}, {"power", 1}});
+    tried["power"] = 1;
+    Settings settings = settingsAt(setting, at.view, tried);
     const auto render = [&] {
         if (settings.has("intensity"))
             settings.set("intensity", probe);
@@ -342,12 +287,12 @@ Image Matching::rawVisibility(const TechniqueSetting& setting, const Case& at, d
 }
 
 FittedRemap Matching::fitAt(const TechniqueSetting& setting, const Freedom& freedom,
-                            double multiplier, double& probe) {
+                            const Values& tried, double& probe) {
     Comparison comparison;
     for (const Case& at : cases_) {
         if (!at.train)
             continue;
-        const Image image = rawVisibility(setting, at, multiplier, probe);
+        const Image image = rawVisibility(setting, at, tried, probe);
         comparison.add(image, probe, at.targets.at(targetOf(study_)), at.probe->shown());
         effort_.spend(renderCost(study_.training));
     }
@@ -365,33 +310,59 @@ Values Matching::fit(const TechniqueSetting& setting, std::string& note) {
         note = "the partner: as it is";
         return {};
     }
-    if (!freedom.multiplier() && !freedom.intensity() && !freedom.power()) {
+    std::vector<std::string> names; // of what each trial is rendered with
+    std::vector<Range> ranges;
+    std::vector<double> best;
+    const auto free = [&](std::string_view name, const std::optional<Range>& range) {
+        if (!range)
+            return;
+        names.emplace_back(name);
+        ranges.push_back(*range);
+        best.push_back(freedom.start(name));
+    };
+    free("radiusMultiplier", freedom.multiplier());
+    for (const Parameter& parameter : settings.technique().parameters)
+        free(parameter.name, freedom.own(parameter));
+    if (names.empty() && !freedom.intensity() && !freedom.power()) {
         note = "has nothing to fit";
         return {};
     }
-    std::map<double, FittedRemap> tried;
+    std::map<std::vector<double>, FittedRemap> tried;
     double probe = 1;
-    const auto error = [&](double multiplier) {
-        const auto found = tried.find(multiplier);
-        return found != tried.end()
-                   ? found->second.error
-                   : (tried[multiplier] = fitAt(setting, freedom, multiplier, probe)).error;
+    const auto error = [&](const std::vector<double>& at) {
+        const auto found = tried.find(at);
+        if (found != tried.end())
+            return found->second.error;
+        Values values;
+        for (std::size_t i = 0; i < at.size(); ++i)
+            values[names[i]] = at[i];
+        return (tried[at] = fitAt(setting, freedom, values, probe)).error;
     };
-    double best = freedom.start("radiusMultiplier");
-    if (const auto range = freedom.multiplier())
-        best = fitMultiplier(error, best, *range);
+    if (freedom.multiplier()) {
+        const auto along = [&](double multiplier) {
+            std::vector<double> at = best;
+            at[0] = multiplier;
+            return error(at);
+        };
+        best[0] = fitMultiplier(along, best[0], ranges[0]);
+    }
+    if (names.size() > (freedom.multiplier() ? 1u : 0u))
+        best = fitScales(error, best, ranges);
     error(best);
     Values values;
-    const auto put = [&](const char* name, const std::optional<Range>& range, double value) {
+    const auto put = [&](const std::string& name, const std::optional<Range>& range, double value,
+                         bool isExponential = false) {
         if (!range)
             return;
-        values[name] = std::clamp(significant(value), range->low, range->high);
-        if (value < range->low * 1.001 || value > range->high * 0.999)
+        const double size = std::abs(value);
+        values[name] = std::copysign(std::clamp(significant(size), range->low, range->high), value);
+        if (size < range->low * 1.001 || (size > range->high * 0.999 && !isExponential))
             note += fmt::format("{}{} ended at its bound", note.empty() ? "" : "; ", name);
     };
-    put("radiusMultiplier", freedom.multiplier(), best);
+    for (std::size_t i = 0; i < names.size(); ++i)
+        put(names[i], ranges[i], best[i]);
     put("intensity", freedom.intensity(), tried[best].remap.intensity);
-    put("power", freedom.power(), tried[best].remap.power);
+    put("power", freedom.power(), tried[best].remap.power, freedom.intensity().has_value());
     return values;
 }
 
@@ -479,7 +450,7 @@ MatchResult Matching::run() {
         auto known = finished_.find(keys_[i]);
         result_.kept += known.has_value();
         if (!known) {
-            effort_.begin(techniqueCost(), setting.name);
+            effort_.begin(techniqueCost(setting), setting.name);
             known = matched(setting);
             finished_.add(keys_[i], *known);
             effort_.end();

@@ -79,7 +79,11 @@ std::string headerOf(const MatchStudy& study, const MatchResult& result) {
     text += fmt::format("# Trained on ({} x {}): {}\n# Tested on ({} x {}): {}\n",
                         study.training.width, study.training.height, listOf(study.train),
                         study.image.width, study.image.height, listOf(study.test));
-    return text + "# RMSE is over test views, which the fit has not seen.\n";
+    return text +
+           "# RMSE is over test views, which the fit has not seen.\n"
+           "# Visibility v becomes max(0, 1 - intensity (1 - v))^power; with a power below 0,\n"
+           "# (1 + intensity (1 - v))^power. A power of 64 stands for\n"
+           "# exp(-intensity power (1 - v)), and is no bound.\n";
 }
 
 } // namespace

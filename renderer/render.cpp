@@ -6,6 +6,7 @@
 #include "renderer/frame/composite.h"
 #include "renderer/probe.h"
 #include "renderer/reference/traced.h"
+#include "renderer/scene/ground.h"
 #include "renderer/techniques/occlusion_passes.h"
 
 #include <fmt/format.h>
@@ -87,19 +88,22 @@ class StageClock {
 
 Scene loadSceneOf(const View& view, const Folders& folders) {
     return namedAt(view.place, [&] {
-        return view.file.empty() ? builtinScene(view.builtin)
-                                 : loadScene(folders.scenes / view.file);
+        Scene scene =
+            view.file.empty() ? builtinScene(view.builtin) : loadScene(folders.scenes / view.file);
+        if (view.ground)
+            addGround(scene, *view.ground);
+        return scene;
     });
 }
 
-const std::string& SceneHashes::of(const View& view) {
+std::string SceneHashes::of(const View& view) {
     std::string& hash = known_[view.builtin + "\n" + view.file];
     if (hash.empty())
         hash = namedAt(view.place, [&] {
             return view.file.empty() ? builtinScene(view.builtin).sha256
                                      : sceneSha256(folders_.scenes / view.file);
         });
-    return hash;
+    return view.ground ? sha256With(*view.ground, hash) : hash;
 }
 
 Settings settingsOf(const Recipe& recipe) {
@@ -237,14 +241,6 @@ void RecipeRenderer::prepare(const Recipe& recipe) {
 const Subject& RecipeRenderer::subject(const Recipe& recipe) {
     prepare(recipe);
     return *stage_->subject;
-}
-
-void RecipeRenderer::check(const Recipe& recipe) {
-    prepare(recipe);
-    const Settings settings = settingsOf(recipe);
-    const int guard = guardPixels(settings, recipe.height);
-    const OcclusionPasses passes(settings, recipe.width + 2 * guard, recipe.height + 2 * guard);
-    gl::throwMessages();
 }
 
 Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {

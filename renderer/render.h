@@ -27,8 +27,8 @@ struct Folders {
     std::filesystem::path protocol; // environment images
 };
 
-// The view's scene, built in or from its file. What is wrong with it is told with the view's place
-// in the protocol.
+// The view's scene, built in or from its file, with the ground that the view gives it. What is
+// wrong with it is told with the view's place in the protocol.
 Scene loadSceneOf(const View& view, const Folders& folders);
 
 // The hashes of scenes, each looked up once: a study shows few scenes in many conditions. What is
@@ -37,7 +37,7 @@ class SceneHashes {
   public:
     explicit SceneHashes(Folders folders) : folders_(std::move(folders)) {}
     const Folders& folders() const { return folders_; }
-    const std::string& of(const View& view);
+    std::string of(const View& view);
 
   private:
     Folders folders_;
@@ -86,9 +86,6 @@ class RecipeRenderer {
 
     // The recipe's scene, to be probed (renderer/probe.h); until a recipe has another scene.
     const Subject& subject(const Recipe& recipe);
-
-    // All of it but drawing: loads scene and lighting onto the GPU, and compiles the shaders.
-    void check(const Recipe& recipe);
 
     const StageTimes& times() const { return times_; }
     const std::vector<std::string>& sceneWarnings() const { return warnings_; }

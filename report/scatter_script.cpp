@@ -21,8 +21,14 @@ set lmargin at screen 0.085
 set rmargin at screen 0.64
 set tmargin at screen 0.97
 set bmargin at screen 0.12
-set xlabel 'milliseconds (what is free stands at the left edge)'
 )";
+
+std::string timeTitle(const Scatter& scatter) {
+    return format("milliseconds (what is free stands at the left edge{})",
+                  scatter.uncertainty > 0
+                      ? format("; dotted: the front, times ±{:.1f} %", 100 * scatter.uncertainty)
+                      : "");
+}
 
 // From above the first point of the front to the right border; what takes more time than `free`
 // moved by `factor`.
@@ -61,11 +67,6 @@ std::string key(const Scatter& scatter, const std::vector<std::string>& seriesNa
             format("set label {} at screen {:.4f}, {:.4f} font ',6.5'\n",
                    gnuplotText(format("{}  {}", k + 1, scatter.points[scatter.front[k]].name)),
                    left - 0.008, top - line * static_cast<double>(rows + k) - 0.02);
-    if (scatter.uncertainty > 0)
-        script += format("set label {} at screen {:.4f}, 0.04 font ',6.5'\n",
-                         gnuplotText(format("dotted: as far as times are uncertain, ±{:.1f} %",
-                                            100 * scatter.uncertainty)),
-                         left - 0.008);
     return script;
 }
 
@@ -154,7 +155,8 @@ std::string scatterScript(const Scatter& measured, const std::vector<std::string
         elements.push_back(seriesPlot(index));
     }
     return plot::style + plot::ticks("x", across) + plot::ticks("y", up) + frame +
-           format("set ylabel {}\n", gnuplotText(scatter.error)) +
+           format("set xlabel {}\nset ylabel {}\n", gnuplotText(timeTitle(scatter)),
+                  gnuplotText(scatter.error)) +
            key(scatter, seriesNames, series) + frontNumbers(scatter, across, up) + data + "plot " +
            plot::list(elements) + "\n";
 }

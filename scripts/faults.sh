@@ -19,6 +19,12 @@ fault sun-swapped renderer/frame/light.cpp \
 fault depth-solid matching/truths.cpp \
     's|thickness = reference\.settings\.radius|thickness = 1e3|' \
     match_gl_test 'Truths.*'
+fault flattening-for-nothing matching/fit.cpp \
+    's|flatteningCost = 1 / 0\.9|flatteningCost = 1|' \
+    matching_test 'FitRemap.*'
+fault minimum-below-exp renderer/shaders/ao/gtao.glsl \
+    's|1\.0 - sign\(settings\.power\) \* \(1\.0|1.0 - (1.0|' \
+    techniques_gl_test 'GlTest.TheMinimumOfVisibility*'
 fault srgb-toe image/image.cpp \
     's|12\.92f \* linear|12.2f * linear|' \
     image_test 'Srgb.*'
@@ -220,3 +226,12 @@ fault front-of-equals bench/sweep/pareto.cpp \
 fault caution-silent analysis/findings.cpp \
     's#if \(!caution\.empty\(\)\)#if (caution.size() > 100000)#' \
     analysis_program_test 'Program.Cautions*'
+fault look-unscaled experiment/eyes.cpp \
+    's|lookDeviation \* random_|random_|' \
+    experiment_test 'Eyes.*'
+fault worse-for-better protocols/reader/stimuli.cpp \
+    's|\) > right;|) < right;|' \
+    experiment_test 'Eyes.*'
+fault unsure-votes analysis/plan/simulation.cpp \
+    's|limitOf\(here\.b \+ here\.unsure\)|limitOf(here.b)|' \
+    analysis_test 'Plan.WhoIsNotSureHasNoVote'

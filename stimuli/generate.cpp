@@ -6,18 +6,17 @@
 #include "protocols/reader/design.h"
 #include "stimuli/boost.h"
 #include "stimuli/contact_sheet.h"
+#include "stimuli/image_files.h"
 #include "stimuli/measurements.h"
 #include "stimuli/plan.h"
 #include "stimuli/times.h"
+#include "stimuli/warnings.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cstring>
-#include <span>
+#include <set>
 
 namespace obscura {
 
@@ -25,7 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* manifestName = "manifest.json";
 // What an interrupted run leaves: a manifest of the pairs that were finished.
 constexpr const char* unfinishedName = "unfinished-manifest.json";
 
@@ -79,10 +77,6 @@ Earlier earlierRuns(const fs::path& folder, const Manifest& now,
     return earlier;
 }
 
-bool intact(const fs::path& folder, const FileRecord& file) {
-    return fs::is_regular_file(folder / file.path) && sha256File(folder / file.path) == file.sha256;
-}
-
 // Whether an earlier record proves that the image need not be rendered.
 bool proves(const ImageRecord& earlier, const Recipe& recipe, const fs::path& folder, bool layers) {
     if (earlier.recipe.sha256() != recipe.sha256() || !intact(folder, earlier.image) ||
@@ -90,81 +84,6 @@ bool proves(const ImageRecord& earlier, const Recipe& recipe, const fs::path& fo
         return false;
     return std::all_of(earlier.layers.begin(), earlier.layers.end(),
                        [&](const auto& layer) { return intact(folder, layer.second); });
-}
-
-constexpr std::string_view makeAnew = "make the stimuli anew: obscura-stimuli without --verify";
-
-std::span<const std::string> channelNames(int count) {
-    static const std::array<std::string, 4> colours{"R", "G", "B", "A"};
-    static const std::array<std::string, 1> grey{"V"};
-    return count == 1
-               ? std::span<const std::string>(grey)
-               : std::span<const std::string>(colours).first(static_cast<std::size_t>(count));
-}
-
-// Compares bits, so that a NaN equals itself.
-bool sameBits(const Image& a, const Image& b) {
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
-}
-
-class ImageWriter {
-  public:
-    explicit ImageWriter(const fs::path& folder) : folder_(folder) {}
-
-    FileRecord png(const std::string& name, const Image8& image) const {
-        writePng(folder_ / name, image);
-        return {name, sha256File(folder_ / name)};
-    }
-    FileRecord exr(const std::string& name, const Image& image) const {
-        writeExr(folder_ / name, image, channelNames(image.channels), true);
-        return {name, sha256File(folder_ / name)};
-    }
-
-  private:
-    fs::path folder_;
-};
-
-// What `layers` asks for, by kind.
-std::map<std::string, const Image*> exrsOf(const Rendering& rendering) {
-    std::map<std::string, const Image*> all{{"visibility", &rendering.visibility}};
-    for (const auto& [kind, image] : rendering.layers)
-        all[kind] = &image;
-    return all;
-}
-
-ImageRecord write(const Rendering& rendering, const std::string& file, const fs::path& folder,
-                  bool layers) {
-    const ImageWriter writer(folder);
-    const std::string stem = fs::path(file).stem().string();
-    ImageRecord record;
-    record.inputsSha256 = rendering.inputsSha256;
-    record.meanOcclusion = rendering.meanOcclusion;
-    record.image = writer.png(file, rendering.image);
-    record.layers["ao"] = writer.png(stem + "_ao.png", quantised(rendering.visibility));
-    if (layers)
-        for (const auto& [kind, image] : exrsOf(rendering))
-            record.layers[kind] = writer.exr(fmt::format("{}_{}.exr", stem, kind), *image);
-    return record;
-}
-
-// Of the images that are there.
-void checkMatched(const ConditionRecord& condition, const Place& place) {
-    const ImageRecord* first = nullptr;
-    for (const ImageRecord& image : condition.images) {
-        if (image.image.path.empty())
-            continue;
-        if (!first)
-            first = &image;
-        if (image.inputsSha256 != first->inputsSha256)
-            throw Error(place,
-                        fmt::format("the images are not matched: before occlusion, \"{}\" has "
-                                    "the hash {} and \"{}\" {}. The driver does not repeat "
-                                    "itself; render with another device of obscura-render "
-                                    "--devices",
-                                    first->name, first->inputsSha256, image.name,
-                                    image.inputsSha256));
-    }
 }
 
 Manifest emptyManifest(const Protocol& protocol, const gl::Driver& driver) {
@@ -209,6 +128,10 @@ std::map<std::string, std::vector<Recipe>> byView(const std::vector<Recipe>& rec
     return result;
 }
 
+void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+}
+
 bool isFinished(const ConditionRecord& condition) {
     return std::none_of(condition.images.begin(), condition.images.end(),
                         [](const ImageRecord& image) { return image.image.path.empty(); });
@@ -219,160 +142,6 @@ Manifest finishedPart(Manifest manifest) {
     std::erase_if(manifest.conditions,
                   [](const ConditionRecord& condition) { return !isFinished(condition); });
     return manifest;
-}
-
-// Each image of a manifest in turn, with its condition.
-template <typename Visit>
-void eachImage(const Manifest& manifest, Visit visit) {
-    for (const ConditionRecord& condition : manifest.conditions)
-        for (const ImageRecord& image : condition.images)
-            visit(condition, image);
-}
-
-std::string nameOf(const ConditionRecord& condition, const ImageRecord& image) {
-    return fmt::format("condition \"{}\", image {}", condition.condition, image.role);
-}
-
-// Whether the difference between two recipes may leave the image as it is. If so, the pixels
-// decide.
-bool decidedByPixels(const std::string& difference) {
-    return difference.starts_with("codeSha256: ") || difference.starts_with("shaderSha256: ") ||
-           difference.starts_with("programVersion: ");
-}
-
-class Verification {
-  public:
-    Verification(const Protocol& protocol, const Manifest& manifest, const Folders& folders,
-                 const gl::Driver& driver)
-        : protocol_(protocol), manifest_(manifest), renderer_(folders), scenes_(folders),
-          driver_(driver) {}
-
-    void conditions() const;
-    void files() const;
-    void recipe(const ConditionRecord& pair, const ImageRecord& record, std::string_view code);
-    void rendering(const ConditionRecord& pair, const ImageRecord& record);
-    int fromOtherCode() const { return fromOtherCode_; }
-
-  private:
-    const Condition& condition(const ConditionRecord& pair) const;
-    void file(const FileRecord& record) const;
-    void driver(const ImageRecord& record) const;
-    Place placeOf(const FileRecord& record) const {
-        return {(manifest_.folder / record.path).string(), 0, 0, {}};
-    }
-
-    const Protocol& protocol_;
-    const Manifest& manifest_;
-    RecipeRenderer renderer_;
-    SceneHashes scenes_;
-    const gl::Driver& driver_;
-    int fromOtherCode_ = 0;
-};
-
-const Condition& Verification::condition(const ConditionRecord& pair) const {
-    for (const Condition& each : protocol_.conditions)
-        if (each.id == pair.condition)
-            return each;
-    throw Error(fmt::format("{} has stimuli of the condition \"{}\", which the protocol lacks; {}",
-                            (manifest_.folder / manifestName).string(), pair.condition, makeAnew));
-}
-
-void Verification::conditions() const {
-    if (manifest_.study != protocol_.name)
-        throw Error(fmt::format("{} is of the study \"{}\", the protocol of \"{}\"; {}",
-                                (manifest_.folder / manifestName).string(), manifest_.study,
-                                protocol_.name, makeAnew));
-    for (const Condition& each : protocol_.conditions)
-        if (std::none_of(manifest_.conditions.begin(), manifest_.conditions.end(),
-                         [&](const ConditionRecord& pair) { return pair.condition == each.id; }))
-            throw Error(each.place,
-                        fmt::format("condition \"{}\" has no stimuli; {}", each.id, makeAnew));
-}
-
-void Verification::file(const FileRecord& record) const {
-    if (!fs::exists(manifest_.folder / record.path))
-        throw Error(placeOf(record), fmt::format("is missing; {}", makeAnew));
-    if (!intact(manifest_.folder, record))
-        throw Error(placeOf(record),
-                    fmt::format("has changed since it was made: its SHA-256 is not "
-                                "the manifest's; {}",
-                                makeAnew));
-}
-
-void Verification::files() const {
-    eachImage(manifest_, [&](const ConditionRecord&, const ImageRecord& record) {
-        file(record.image);
-        for (const auto& [kind, layer] : record.layers)
-            file(layer);
-    });
-    for (const FileRecord& sheet : manifest_.contactSheets)
-        file(sheet);
-}
-
-void Verification::driver(const ImageRecord& record) const {
-    if (record.recipe.glRenderer != driver_.renderer || record.recipe.glVersion != driver_.version)
-        throw Error(placeOf(record.image),
-                    fmt::format("was made with {} ({}), this is {} ({}): bytes repeat only on the "
-                                "same driver",
-                                record.recipe.glRenderer, record.recipe.glVersion, driver_.renderer,
-                                driver_.version));
-}
-
-void Verification::recipe(const ConditionRecord& pair, const ImageRecord& record,
-                          std::string_view code) {
-    driver(record);
-    const Condition& today = condition(pair);
-    const auto role = std::find_if(today.roles.begin(), today.roles.end(),
-                                   [&](const Role& each) { return each.name == record.role; });
-    if (role == today.roles.end())
-        throw Error(today.place,
-                    fmt::format("{} is not in the protocol; {}", nameOf(pair, record), makeAnew));
-    const int member = static_cast<int>(role - today.roles.begin());
-    std::vector<std::string> found =
-        differences(record.recipe, makeRecipe(protocol_, today, member, scenes_, driver_, code));
-    const auto other = std::stable_partition(
-        found.begin(), found.end(), [](const std::string& each) { return !decidedByPixels(each); });
-    fromOtherCode_ += other != found.end();
-    found.erase(other, found.end());
-    if (!found.empty())
-        throw Error(today.place,
-                    fmt::format("{} ({}) was made by another recipe than the protocol gives now: "
-                                "{}; {}",
-                                nameOf(pair, record), record.image.path, fmt::join(found, "; "),
-                                makeAnew));
-}
-
-void Verification::rendering(const ConditionRecord& pair, const ImageRecord& record) {
-    const bool exrs = record.layers.contains("linear");
-    const Rendering now = renderer_.render(record.recipe, exrs);
-    const auto mustBe = [&](const FileRecord& file, bool same) {
-        if (!same)
-            throw Error(placeOf(file),
-                        fmt::format("{}: its recipe now gives other pixels, so what renders has "
-                                    "changed; {}",
-                                    nameOf(pair, record), makeAnew));
-    };
-    const auto png = [&](const FileRecord& file, const Image8& image) {
-        mustBe(file,
-               readImage8(manifest_.folder / file.path, image.channels).pixels == image.pixels);
-    };
-    png(renderedOf(record), now.image);
-    const auto images = exrsOf(now);
-    for (const auto& [kind, file] : record.layers)
-        if (kind == "ao")
-            png(file, quantised(now.visibility));
-        else if (record.derived && &file == &renderedOf(record))
-            continue;
-        else if (const auto image = images.find(kind); image == images.end())
-            mustBe(file, false);
-        else
-            mustBe(file, sameBits(readExr(manifest_.folder / file.path,
-                                          channelNames(image->second->channels)),
-                                  *image->second));
-    mustBe(record.image, now.inputsSha256 == record.inputsSha256);
-    if (const std::string fault = faultOfBoost(protocol_, manifest_, pair, record); !fault.empty())
-        throw Error(placeOf(record.image), fmt::format("{}; {}", fault, makeAnew));
-    checkMatched(pair, condition(pair).place);
 }
 
 } // namespace
@@ -398,6 +167,8 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
 
     RecipeRenderer renderer(folders);
     Measurements measurements(protocol, folder, byView(recipes), renderer);
+    Warnings warnings(protocol, renderer);
+    std::set<std::string> anew; // conditions of which an image was rendered
     for (std::size_t i = 0; i < images.size(); ++i) {
         const PlannedImage& image = images[i];
         announce(static_cast<int>(i), static_cast<int>(images.size()), image.file);
@@ -414,8 +185,9 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
                                          known->second.layers.contains("linear"));
             const Rendering rendering = renderer.render(recipes[i], exrs);
             addWarnings(result.warnings, condition.view, renderer.sceneWarnings());
+            anew.insert(condition.id);
             const double start = seconds();
-            record = write(rendering, image.file, folder, exrs);
+            record = written(rendering, image.file, folder, exrs);
             result.writing += seconds() - start;
             ++result.rendered;
         }
@@ -425,6 +197,8 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
         if (isFinished(pair)) {
             checkMatched(pair, condition.place);
             measurements.complete(result.manifest, pair);
+            if (anew.contains(condition.id))
+                add(result.warnings, warnings.of(condition, recipesOf(pair)));
             writeManifest(folder / unfinishedName, finishedPart(result.manifest));
         }
     }
@@ -437,40 +211,32 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders, const 
     const std::vector<Image8> sheets = contactSheets(result.manifest);
     for (std::size_t i = 0; i < sheets.size(); ++i)
         result.manifest.contactSheets.push_back(
-            ImageWriter(folder).png(pageName("contact-sheet", i, sheets.size()), sheets[i]));
+            writtenPng(folder, pageName("contact-sheet", i, sheets.size()), sheets[i]));
     result.writing += seconds() - start;
     writeManifest(folder / manifestName, result.manifest);
     fs::remove(folder / unfinishedName);
     return result;
 }
 
-void check(const Protocol& protocol, const Folders& folders, const gl::Driver& driver,
-           const Announce& announce) {
+std::vector<std::string> check(const Protocol& protocol, const Folders& folders,
+                               const gl::Driver& driver, const Announce& announce) {
     SceneHashes scenes(folders);
     RecipeRenderer renderer(folders);
+    Warnings warnings(protocol, renderer);
+    std::vector<std::string> found;
+    std::vector<std::vector<Recipe>> recipes(protocol.conditions.size());
     const std::vector<PlannedImage> images = plan(protocol);
     for (std::size_t i = 0; i < images.size(); ++i) {
         announce(static_cast<int>(i), static_cast<int>(images.size()), images[i].file);
-        renderer.check(makeRecipe(protocol, protocol.conditions[images[i].condition],
-                                  images[i].member, scenes, driver));
+        const Condition& condition = protocol.conditions[images[i].condition];
+        std::vector<Recipe>& own = recipes[images[i].condition];
+        own.push_back(makeRecipe(protocol, condition, images[i].member, scenes, driver));
+        if (own.size() < condition.roles.size())
+            continue;
+        add(found, warnings.of(condition, own));
+        addWarnings(found, condition.view, renderer.sceneWarnings());
     }
-}
-
-int verify(const Protocol& protocol, const Manifest& manifest, const Folders& folders,
-           const gl::Driver& driver, const Announce& announce, std::string_view code) {
-    Verification verification(protocol, manifest, folders, driver);
-    verification.conditions();
-    eachImage(manifest, [&](const ConditionRecord& pair, const ImageRecord& record) {
-        verification.recipe(pair, record, code);
-    });
-    verification.files();
-    int total = 0, done = 0;
-    eachImage(manifest, [&](const ConditionRecord&, const ImageRecord&) { ++total; });
-    eachImage(manifest, [&](const ConditionRecord& pair, const ImageRecord& record) {
-        announce(done++, total, record.image.path);
-        verification.rendering(pair, record);
-    });
-    return verification.fromOtherCode();
+    return found;
 }
 
 } // namespace obscura

@@ -14,8 +14,9 @@ struct GenerateResult {
     Manifest manifest;
     int rendered = 0, kept = 0; // images
     StageTimes times;           // of those rendered
-    // What the scenes that were loaded use and we do not show; and what an earlier run's manifest
-    // lacks, for which its images are made anew.
+    // What the scenes that were loaded use and we do not show; what an earlier run's manifest
+    // lacks, for which its images are made anew; and what makes new images worthless
+    // (stimuli/warnings.h).
     std::vector<std::string> warnings;
     double writing = 0;   // seconds: encoding and flushing files, and the contact sheet
     double measuring = 0; // seconds: references, errors, predictions and times
@@ -36,9 +37,10 @@ GenerateResult generate(const Protocol& protocol, const Folders& folders,
                         const Announce& announce, std::string_view code = imageCode());
 
 // All that generate() meets before it draws: loads every scene and environment image onto the GPU,
-// and compiles the shaders. What is wrong is an Error with the protocol's line.
-void check(const Protocol& protocol, const Folders& folders, const gl::Driver& driver,
-           const Announce& announce);
+// and compiles the shaders. What is wrong is an Error with the protocol's line. Gives the warnings
+// that generate() would, of scenes and of conditions that are worth nothing (stimuli/warnings.h).
+std::vector<std::string> check(const Protocol& protocol, const Folders& folders,
+                               const gl::Driver& driver, const Announce& announce);
 
 // Whether the folder holds what the protocol asks for, byte for byte. First that each condition was
 // made by the recipe that the protocol gives today, and that each file (images, layers, contact

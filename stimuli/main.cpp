@@ -24,9 +24,13 @@ Announce announcing(std::optional<Progress>& progress, const std::string& label)
     };
 }
 
-void report(const GenerateResult& result, const fs::path& folder) {
-    for (const std::string& warning : result.warnings)
+void warn(const std::vector<std::string>& warnings) {
+    for (const std::string& warning : warnings)
         fmt::print(stderr, "warning: {}\n", warning);
+}
+
+void report(const GenerateResult& result, const fs::path& folder) {
+    warn(result.warnings);
     const StageTimes& t = result.times;
     fmt::print("{} images rendered, {} kept, in {}\n", result.rendered, result.kept,
                folder.string());
@@ -51,8 +55,7 @@ void report(const GenerateResult& result, const fs::path& folder) {
 // Prints a line for each technique: how much fitting has improved it on views that it was not
 // fitted on.
 void report(const MatchStudy& study, const MatchResult& result, const fs::path& folder) {
-    for (const std::string& warning : result.warnings)
-        fmt::print(stderr, "warning: {}\n", warning);
+    warn(result.warnings);
     const std::string target =
         study.partner.empty() ? truthNames()[static_cast<std::size_t>(study.truth)] : study.partner;
     fmt::print("{} techniques ({} known from before), in {}; on test views against {}:\n",
@@ -122,8 +125,10 @@ int run(int argc, char** argv) {
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
     app.add_option("--device", device, "render with this device of obscura-render --devices");
     app.add_flag("--layers", layers, "write linear EXR of image, visibility and G-buffer as well");
-    app.add_flag("--check", check,
-                 "check the protocol, and load all that it names; render nothing");
+    app.add_flag(
+        "--check", check,
+        "check the protocol, load all that it names, and warn of conditions that are worth "
+        "nothing; write nothing");
     app.add_flag(
         "--verify", verifyOnly,
         "compare the folder with the protocol, its files with their hashes, and every image "
@@ -143,10 +148,12 @@ int run(int argc, char** argv) {
     const gl::Context context(device);
     std::optional<Progress> progress;
     if (check) {
-        obscura::check(protocol, folders, context.driver(), announcing(progress, "checking"));
+        const std::vector<std::string> warnings =
+            obscura::check(protocol, folders, context.driver(), announcing(progress, "checking"));
         progress.reset();
-        fmt::print("{}: {} conditions, all well\n", protocolPath.string(),
-                   protocol.conditions.size());
+        warn(warnings);
+        fmt::print("{}: {} conditions, {}\n", protocolPath.string(), protocol.conditions.size(),
+                   warnings.empty() ? "all well" : "all can be made, with the warnings above");
     } else if (verifyOnly) {
         const Manifest manifest = readManifest(out / "manifest.json");
         const int others = verify(protocol, manifest, folders, context.driver(),

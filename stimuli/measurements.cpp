@@ -52,13 +52,12 @@ bool isThere(const ImageRecord& image) { return !image.image.path.empty(); }
 
 } // namespace
 
-Recipe referenceOf(const Protocol& protocol, const ConditionRecord& condition) {
-    Recipe recipe = condition.images.front().recipe;
+Recipe referenceOf(const Protocol& protocol, std::span<const Recipe> condition) {
+    Recipe recipe = condition.front();
     Settings settings(technique("ray_traced"));
-    settings.set("radius", condition.radius);
-    for (const ImageRecord& image : condition.images)
-        if (const auto own = image.recipe.settings.find("radius");
-            own != image.recipe.settings.end())
+    settings.set("radius", recipe.view.radius);
+    for (const Recipe& each : condition) // all that have one have the same
+        if (const auto own = each.settings.find("radius"); own != each.settings.end())
             settings.set("radius", own->second);
     const int frames = recipe.antialiasing;
     settings.set("rays", std::max(mostRays(protocol), (leastRays + frames - 1) / frames));
@@ -66,6 +65,13 @@ Recipe referenceOf(const Protocol& protocol, const ConditionRecord& condition) {
     recipe.settings = settings.named();
     recipe.shaderSha256 = shaderSha256(settings, recipe.level);
     return recipe;
+}
+
+std::vector<Recipe> recipesOf(const ConditionRecord& condition) {
+    std::vector<Recipe> recipes;
+    for (const ImageRecord& image : condition.images)
+        recipes.push_back(image.recipe);
+    return recipes;
 }
 
 Measurements::Measurements(const Protocol& protocol, std::filesystem::path folder,
@@ -90,7 +96,7 @@ const Measurements::Reference& Measurements::reference(const Recipe& recipe) {
 // Of the files, whether just written or kept: 8 bits of visibility, whose rounding adds 0.001 to an
 // error that is not 0.
 void Measurements::addQuality(ConditionRecord& condition) {
-    const Recipe recipe = referenceOf(protocol_, condition);
+    const Recipe recipe = referenceOf(protocol_, recipesOf(condition));
     for (ImageRecord& image : condition.images) {
         if (image.quality && image.quality->referenceSha256 == recipe.sha256())
             continue;

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,13 @@ namespace obscura {
 // What a manifest says of its images beside what they are: how far each is from the ray-traced
 // image of its view, and how long its technique takes. Neither decides a pixel.
 
-// The recipe of the image that others of the condition are compared with: `ray_traced` in place of
+// The recipe of the image that those of one condition are compared with: `ray_traced` in place of
 // the technique. Its rays are those of the protocol's own ray-traced technique, the one with most,
 // and at least 128 a pixel over all jittered frames.
-Recipe referenceOf(const Protocol& protocol, const ConditionRecord& condition);
+Recipe referenceOf(const Protocol& protocol, std::span<const Recipe> condition);
+
+// Of its images.
+std::vector<Recipe> recipesOf(const ConditionRecord& condition);
 
 class Measurements {
   public:

@@ -181,7 +181,7 @@ TEST(Programs, RefuseWrongOnes) {
         {sweep + "--hours nan", "expected a number from 0"},
         {sweep + "--size 0x100", "expected --size WIDTHxHEIGHT"},
         {sweep + "--size 320", "expected --size WIDTHxHEIGHT"},
-        {sweep + "--display crt", "--display: expected standard_fhd"},
+        {sweep + "--display crt", "--display: expected the name of a display"},
         {sweep + "--part 3/2", "expected --part I/N"},
         {choose + "--limit rmse", "--limit NAME=NUMBER, found \"rmse\""},
         {choose + "--limit rmsee=0.1", "did you mean \"rmse\"?"},

@@ -4,11 +4,13 @@
 #include "analysis/plan/preregistration.h"
 #include "base/files.h"
 #include "base/progress.h"
+#include "protocols/reader/stimuli.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <ctime>
+#include <optional>
 
 namespace obscura {
 
@@ -38,6 +40,14 @@ CLI::App* declarePlan(CLI::App& app, PlanCommand& command) {
         ->option_text("N=2000")
         ->check(CLI::Range(100, 1000000));
     plan->add_option("--seed", options.seed, "Of the simulated studies")->option_text("N=1");
+    plan->add_option("--observer", command.observer,
+                     "By what people are expected to choose: preference (the protocol's "
+                     "simulatedPreference), or jod (each image's predicted JOD; --stimuli)")
+        ->option_text("WHAT=preference")
+        ->check(CLI::IsMember({"preference", "jod"}));
+    plan->add_option("--stimuli", command.stimuli,
+                     "With --observer jod: the folder that obscura-stimuli wrote for the protocol")
+        ->option_text("DIR");
     plan->add_option("--out", command.out, "Folder for preregistration.md and power.svg")
         ->option_text("DIR=plan");
     return plan;
@@ -45,9 +55,18 @@ CLI::App* declarePlan(CLI::App& app, PlanCommand& command) {
 
 void planStudy(const PlanCommand& command) {
     const Protocol protocol = readProtocol(command.protocol);
+    const bool sees = command.observer == "jod";
+    if (sees == command.stimuli.empty())
+        throw Error(sees ? "--observer jod: expected the stimuli whose predicted JOD people go by; "
+                           "give --stimuli DIR"
+                         : "--stimuli: only --observer jod looks at stimuli; give that too");
+    std::optional<Manifest> stimuli;
+    if (sees)
+        stimuli = readStimuli(protocol, command.stimuli);
     Progress progress("simulated studies", 1);
-    const Plan plan =
-        planOf(protocol, command.options, [&](double done) { progress.update(done); });
+    const Plan plan = planOf(
+        protocol, command.options, [&](double done) { progress.update(done); },
+        stimuli ? &*stimuli : nullptr);
     const std::string date = fmt::format("{:%F}", fmt::gmtime(std::time(nullptr)));
     writeFile(command.out / "preregistration.md", preregistration(protocol, plan, date));
     writeFigures(command.out, {powerCurves(plan)});

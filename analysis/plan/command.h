@@ -9,7 +9,8 @@
 namespace obscura {
 
 struct PlanCommand {
-    std::filesystem::path protocol, out = "plan";
+    std::filesystem::path protocol, stimuli, out = "plan";
+    std::string observer = "preference"; // or "jod"
     PlanOptions options;
 };
 

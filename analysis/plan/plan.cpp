@@ -78,6 +78,19 @@ class TestPlan {
         return high;
     }
 
+    EffectPower at(int people, double share) const {
+        return {share, power(people, share), needed(share, options_.power), needed(share, 0.9)};
+    }
+
+    // Of the claimed role, where the claim is exact, of one condition, and nobody is unsure.
+    std::optional<double> predictedShare(const std::vector<PredictedPair>& pairs) const {
+        for (const PredictedPair& pair : pairs)
+            if (exact_ && claim_.conditions == std::vector{pair.condition} && pair.unsure == 0)
+                return claim_.favours == "a" && claim_.kind != Kind::equivalent ? 1 - pair.shareB
+                                                                                : pair.shareB;
+        return std::nullopt;
+    }
+
     std::vector<double> effects() const {
         if (claim_.kind == Kind::equivalent)
             return {0.5, 0.5 + claim_.margin / 4, 0.5 + claim_.margin / 2};
@@ -95,9 +108,9 @@ class TestPlan {
     }
 
     // Of b in each of the protocol's conditions.
-    std::vector<double> sharesFor(double share) const {
+    std::vector<Shares> sharesFor(double share) const {
         const bool ofA = claim_.favours == "a" && claim_.kind != Kind::equivalent;
-        std::vector<double> shares(protocol_.conditions.size(), 0.5);
+        std::vector<Shares> shares(protocol_.conditions.size());
         for (std::size_t i = 0; i < shares.size(); ++i)
             for (std::size_t j = 0; j < claim_.conditions.size(); ++j) {
                 if (protocol_.conditions[i].id != claim_.conditions[j])
@@ -108,7 +121,7 @@ class TestPlan {
                         std::minmax_element(claim_.scores.begin(), claim_.scores.end());
                     here = 1 - share + (2 * share - 1) * (claim_.scores[j] - *low) / (*high - *low);
                 }
-                shares[i] = ofA ? 1 - here : here;
+                shares[i].b = ofA ? 1 - here : here;
             }
         return shares;
     }
@@ -127,24 +140,35 @@ int familySize(const std::vector<Claim>& claims, const std::string& family) {
 }
 
 PlannedTest planTest(const Protocol& protocol, const std::vector<Claim>& claims, std::size_t index,
-                     int people, const PlanOptions& options) {
+                     const Plan& whole) {
     PlannedTest test;
     test.claim = claims[index];
     test.family = familySize(claims, test.claim.family);
-    const TestPlan plan(protocol, claims[index], test.family, options);
+    const TestPlan plan(protocol, claims[index], test.family, whole.options);
     test.exact = plan.exact();
     for (const double share : plan.effects())
-        test.effects.push_back({share, plan.power(people, share), plan.needed(share, options.power),
-                                plan.needed(share, 0.9)});
-    test.detectable = plan.detectable(people);
+        test.effects.push_back(plan.at(whole.people, share));
+    if (const auto share = plan.predictedShare(whole.predicted))
+        test.predicted = plan.at(whole.people, *share);
+    test.detectable = plan.detectable(whole.people);
     return test;
 }
 
-StatedPower statedPower(const Protocol& protocol, const ClaimSimulation& simulation, int people,
-                        const PlanOptions& options) {
-    std::vector<double> shares;
-    for (const Condition& condition : protocol.conditions)
-        shares.push_back(condition.simulated.chooseB);
+// In the order of the protocol's conditions.
+std::vector<Shares> statedShares(const Protocol& protocol,
+                                 const std::vector<PredictedPair>& predicted) {
+    std::vector<Shares> shares;
+    for (const Condition& condition : protocol.conditions) {
+        shares.push_back({condition.simulated.chooseB, 0});
+        for (const PredictedPair& pair : predicted)
+            if (pair.condition == condition.id)
+                shares.back() = {pair.shareB, pair.unsure};
+    }
+    return shares;
+}
+
+StatedPower statedPower(const std::vector<Shares>& shares, const ClaimSimulation& simulation,
+                        int people, const PlanOptions& options) {
     StatedPower stated{people, {}};
     for (const int count : countStudies(simulation, options.studies, options.seed, people, shares,
                                         options.spread, isSupported))
@@ -198,7 +222,7 @@ std::vector<Claim> plannedClaims(const Protocol& protocol) {
 }
 
 Plan planOf(const Protocol& protocol, PlanOptions options,
-            const std::function<void(double)>& progress) {
+            const std::function<void(double)>& progress, const Manifest* stimuli) {
     const std::vector<Claim> claims = plannedClaims(protocol);
     if (claims.empty())
         throw Error({protocol.path.string(), 0, 0, {}},
@@ -214,6 +238,12 @@ Plan planOf(const Protocol& protocol, PlanOptions options,
     for (const Phase& phase : phasesOf(protocol.trial))
         plan.minutes += plan.trials * secondsOf(phase, protocol.simulation) / 60;
     plan.options = options;
+    if (stimuli) {
+        plan.predicted = predictedPairs(protocol, *stimuli);
+        plan.predictedOn = stimuli->display ? inWords(*stimuli->display) : "a display unknown";
+        plan.lapse = protocol.simulation.lapse;
+        plan.positionBias = protocol.simulation.positionBias;
+    }
 
     std::set<int> numbers = {plan.people};
     for (const double multiple : multiples)
@@ -226,12 +256,13 @@ Plan planOf(const Protocol& protocol, PlanOptions options,
             progress(++done / steps);
     };
     for (std::size_t i = 0; i < claims.size(); ++i) {
-        plan.tests.push_back(planTest(protocol, claims, i, plan.people, options));
+        plan.tests.push_back(planTest(protocol, claims, i, plan));
         step();
     }
     const ClaimSimulation simulation(protocol, claims);
+    const std::vector<Shares> shares = statedShares(protocol, plan.predicted);
     for (const int people : numbers) {
-        plan.stated.push_back(statedPower(protocol, simulation, people, options));
+        plan.stated.push_back(statedPower(shares, simulation, people, options));
         step();
     }
     return plan;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "analysis/plan/predicted.h"
 #include "protocols/reader/protocol.h"
 
 #include "inference/result.h"
@@ -46,11 +47,14 @@ struct PlannedTest {
     int family = 1;    // claims that are corrected together
     bool exact = true; // or simulated
     std::vector<EffectPower> effects;
+    // At the share of the claimed role that predicted JOD gives (Plan::predicted); only where the
+    // test is exact, of one condition, and everybody must choose.
+    std::optional<EffectPower> predicted;
     std::optional<double> detectable; // the share that the wanted power finds; none: not even 1
 };
 
 // All claims at once, Holm's correction included, where people choose as the protocol's simulated
-// ones do (simulatedPreference).
+// ones do: by simulatedPreference, or by predicted JOD.
 struct StatedPower {
     int people = 0;
     std::vector<Chance> supported; // of each claim
@@ -67,17 +71,25 @@ struct Plan {
     PlanOptions options;
     std::vector<PlannedTest> tests;
     std::vector<StatedPower> stated; // at the planned number, and at balanced ones below and above
+    std::vector<PredictedPair> predicted; // of each main condition; none without stimuli
+    std::string predictedOn;              // the display, in words
+    double lapse = 0, positionBias = 0;   // of those who choose by predicted JOD
 };
 
-// An Error for a protocol without conditions of pairs. `progress` hears of the share that is done.
+// An Error for a protocol without conditions of pairs. With `stimuli`, people choose by their
+// predicted JOD, and without it is an Error. `progress` hears of the share that is done.
 Plan planOf(const Protocol& protocol, PlanOptions options,
-            const std::function<void(double)>& progress = {});
+            const std::function<void(double)>& progress = {}, const Manifest* stimuli = nullptr);
 
 // The claims to plan for.
 std::vector<Claim> plannedClaims(const Protocol& protocol);
 
 // The plan in words and tables, for a terminal; ends with a line feed.
 std::string planText(const Plan& plan);
+
+// What Plan::predicted says, as a table for a terminal or a page, and a sentence about it; "" where
+// it says nothing.
+std::string predictedText(const Plan& plan);
 
 // JOD of a share: probit(share) / probit(0.75).
 double jodOf(double share);

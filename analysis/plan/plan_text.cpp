@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace obscura {
@@ -54,6 +55,13 @@ std::string testText(const PlannedTest& test, const Plan& plan) {
                    : fmt::format("{} simulated studies, people spread by {:g} JOD",
                                  plan.options.studies, plan.options.spread),
         alignedText(table));
+    if (test.predicted)
+        words += fmt::format("Predicted: a share of {:.3f}, which {} people find with {}; N for "
+                             "{:.0f} %: {}, for 90 "
+                             "%: {}.\n",
+                             test.predicted->share, plan.people, text(test.predicted->power),
+                             100 * plan.options.power, people(test.predicted->needed, plan.balance),
+                             people(test.predicted->ninety, plan.balance));
     if (test.detectable)
         words += fmt::format("{} people find a share of {:.3f} ({:.2f} JOD) with {:.0f} %.\n",
                              plan.people, *test.detectable, jodOf(*test.detectable),
@@ -83,15 +91,38 @@ std::string statedText(const Plan& plan) {
             table.rows.back().push_back(text(stated.supported[i]));
         table.rows.back().push_back(smallest(plan, i, plan.options.power));
     }
-    return fmt::format(
-        "If people chose as the protocol's simulated ones do (simulatedPreference; those of whom "
-        "it "
-        "says nothing guess), with\n{:g} JOD between people, each claim would be supported, Holm's "
-        "correction included, in ({} simulated studies, 95 % intervals):\n\n{}",
-        plan.options.spread, plan.options.studies, alignedText(table));
+    const std::string people =
+        plan.predicted.empty()
+            ? "as the protocol's simulated ones do (simulatedPreference; those of whom it says "
+              "nothing guess)"
+            : "by predicted JOD (see above; not by people)";
+    return fmt::format("If people chose {}, with\n{:g} JOD between people, each claim would be "
+                       "supported, Holm's correction included, in ({} simulated studies, 95 % "
+                       "intervals):\n\n{}",
+                       people, plan.options.spread, plan.options.studies, alignedText(table));
 }
 
 } // namespace
+
+std::string predictedText(const Plan& plan) {
+    if (plan.predicted.empty())
+        return {};
+    const bool mayTie = std::any_of(plan.predicted.begin(), plan.predicted.end(),
+                                    [](const PredictedPair& pair) { return pair.unsure > 0; });
+    Table table{{{"Condition"}, {"JOD a", true}, {"JOD b", true}, {"Share of b", true}}, {}};
+    if (mayTie)
+        table.columns.push_back({"Not sure", true});
+    for (const PredictedPair& pair : plan.predicted) {
+        table.rows.push_back({pair.condition, fmt::format("{:.2f}", pair.jodA),
+                              fmt::format("{:.2f}", pair.jodB), percent(pair.shareB)});
+        if (mayTie)
+            table.rows.back().push_back(percent(pair.unsure));
+    }
+    return fmt::format("By predicted JOD (ColorVideoVDP), not by people, on {}:\nchoices by "
+                       "Thurstone's case V, {:g} % lapses, position bias {:g}; the mean of both "
+                       "orders.\n{}\n",
+                       plan.predictedOn, 100 * plan.lapse, plan.positionBias, alignedText(table));
+}
 
 std::string planText(const Plan& plan) {
     std::string words;
@@ -111,6 +142,7 @@ std::string planText(const Plan& plan) {
             ? "they are"
             : fmt::format("plan {} rather than {}", plan.balanced, plan.people),
         100 * plan.options.dropout, plan.invited, plan.trials, std::ceil(plan.minutes));
+    words += predictedText(plan);
     for (const PlannedTest& test : plan.tests)
         words += testText(test, plan) + "\n";
     return words + statedText(plan);

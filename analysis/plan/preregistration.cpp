@@ -152,6 +152,8 @@ std::string numbers(const Plan& plan) {
                 fmt::format("- {}: shown with a probability of {:.1f} % if the true shares are "
                             "even.\n",
                             test.claim.name, 100 * test.effects.front().power.share);
+    if (!plan.predicted.empty())
+        words += fmt::format("\n```\n{}```\n", predictedText(plan));
     return words;
 }
 

@@ -49,7 +49,7 @@ ClaimSimulation::ClaimSimulation(const Protocol& protocol, std::vector<Claim> cl
     }
 }
 
-std::vector<ClaimResult> ClaimSimulation::study(int people, const std::vector<double>& shares,
+std::vector<ClaimResult> ClaimSimulation::study(int people, const std::vector<Shares>& shares,
                                                 double spread, Random& random) const {
     // P(leaning + noise > 0) has the mean share: the leaning's variance is added to the noise's.
     const double deviation = spread * probit(0.75);
@@ -65,8 +65,11 @@ std::vector<ClaimResult> ClaimSimulation::study(int people, const std::vector<do
                 Answer answer = row_[i];
                 answer.row.participantId = name;
                 answer.row.repeatIndex = repeat;
-                answer.row.choseB =
-                    limitOf(shares[conditions_[i]]) * whole + leaning + random.normal() > 0;
+                const Shares& here = shares[conditions_[i]];
+                const double pull = leaning + random.normal();
+                answer.row.choseB = limitOf(here.b) * whole + pull > 0;
+                if (!answer.row.choseB && limitOf(here.b + here.unsure) * whole + pull > 0)
+                    continue;
                 ++(answer.row.choseB ? tallies[i].votes.b : tallies[i].votes.a);
                 answers.push_back(answer);
             }
@@ -75,7 +78,7 @@ std::vector<ClaimResult> ClaimSimulation::study(int people, const std::vector<do
 }
 
 std::vector<int> countStudies(const ClaimSimulation& simulation, int studies, std::uint64_t seed,
-                              int people, const std::vector<double>& shares, double spread,
+                              int people, const std::vector<Shares>& shares, double spread,
                               const std::function<bool(const ClaimResult&)>& holds) {
     std::vector<std::atomic<int>> counts(simulation.claims().size());
     forEachInParallel(studies, [&](int study) {

@@ -14,12 +14,17 @@ namespace obscura {
 // centre such that the mean share of people is the one asked for. What differs between people from
 // condition to condition besides needs no model: as long as each votes once on a condition, it
 // cannot be told from guessing.
+struct Shares {
+    double b = 0.5;    // 0 ... 1, of all answers
+    double unsure = 0; // say "not sure", which is no vote
+};
+
 class ClaimSimulation {
   public:
     ClaimSimulation(const Protocol& protocol, std::vector<Claim> claims);
 
-    // `shares`: of b, in the order of the protocol's conditions, 0 ... 1.
-    std::vector<ClaimResult> study(int people, const std::vector<double>& shares, double spread,
+    // `shares`: in the order of the protocol's conditions.
+    std::vector<ClaimResult> study(int people, const std::vector<Shares>& shares, double spread,
                                    Random& random) const;
 
     const std::vector<Claim>& claims() const { return claims_; }
@@ -34,7 +39,7 @@ class ClaimSimulation {
 
 // In how many of so many studies each claim `holds`; study i always has the same numbers.
 std::vector<int> countStudies(const ClaimSimulation& simulation, int studies, std::uint64_t seed,
-                              int people, const std::vector<double>& shares, double spread,
+                              int people, const std::vector<Shares>& shares, double spread,
                               const std::function<bool(const ClaimResult&)>& holds);
 
 } // namespace obscura

@@ -15,16 +15,17 @@ double overlap(const Box& a, const Box& b) {
 
 double area(const Box& box) { return (box.right - box.left) * (box.top - box.bottom); }
 
-// The best place first.
-std::array<Box, 8> candidates(const Named& point) {
-    const double gap = 0.3 * point.height, beside = 0.8 * point.height;
+// The best place first; above and below, a name moves into the frame.
+std::array<Box, 8> candidates(const Named& point, const Box& frame) {
+    const double gap = 0.4 * point.height, beside = 0.8 * point.height;
     const double middle = (point.low + point.high) / 2;
     const auto at = [&](double left, double bottom) {
         return Box{left, bottom, left + point.width, bottom + point.height};
     };
     const double right = point.x + beside, left = point.x - beside - point.width,
-                 centre = point.x - point.width / 2, above = point.high + gap,
-                 below = point.low - gap - point.height;
+                 centre = std::max(frame.left,
+                                   std::min(point.x - point.width / 2, frame.right - point.width)),
+                 above = point.high + gap, below = point.low - gap - point.height;
     return {at(centre, above),
             at(centre, below),
             at(right, middle - point.height / 2),
@@ -47,7 +48,7 @@ std::vector<Box> labelPlaces(const std::vector<Named>& points, const std::vector
     for (const Named& point : points) {
         Box best;
         double least = 1e300;
-        for (const Box& place : candidates(point)) {
+        for (const Box& place : candidates(point, frame)) {
             double cost = 4 * (area(place) - overlap(place, frame)); // what is cut off
             for (const Box& box : covered)
                 cost += overlap(place, box);

@@ -40,10 +40,10 @@ Figure draw(const Findings& findings, const Prediction& prediction, double inche
     double nameInches = 0;
     for (std::size_t i = 0; i < shown; ++i)
         nameInches = std::max(nameInches, 1.22 * textWidth(places[i]));
-    const double left = 0.62, top = 0.1, below = 0.52, line = 0.19;
-    const double key = isNarrow ? 0.15 : std::max(nameInches, 2.3) + 0.5;
-    const double side = std::min(inches - left - key, 4.0);
-    const double under = isNarrow ? line * static_cast<double>(shown + 4) : 0;
+    const double left = 0.64, top = 0.1, below = 0.56, line = 0.19;
+    const double key = isNarrow ? 0.15 : std::max(nameInches, 2.4) + 0.5;
+    const double side = std::min(inches - left - key, 3.6);
+    const double under = isNarrow ? line * static_cast<double>(shown + 5) : 0;
     const double height = top + side + below + under;
     double lowest = -0.5, highest = 0.5;
     for (const PredictedPoint& point : prediction.points) {
@@ -82,8 +82,8 @@ Figure draw(const Findings& findings, const Prediction& prediction, double inche
     if (prediction.line && prediction.ranks) {
         write(correlationText("Pearson's r", *prediction.line), "");
         write(correlationText("Spearman's ρ", *prediction.ranks), "");
-        write(format("n = {}; best known about {:g}", prediction.points.size(), bestCorrelation),
-              "");
+        write(format("n = {} techniques", prediction.points.size()), "");
+        write(format("the best such metrics: about {:g}", bestCorrelation), "");
     }
     Figure figure{"predicted", "Predicted differences against those of people", {}, inches, height};
     figure.script =
@@ -92,14 +92,14 @@ Figure draw(const Findings& findings, const Prediction& prediction, double inche
                "set rmargin at screen {:.5f}\nset tmargin at screen {:.5f}\n"
                "set bmargin at screen {:.5f}\nset xrange [{}:{}]\nset yrange [{}:{}]\n"
                "set xtics nomirror out {}\nset ytics nomirror out {}\n"
-               "set xlabel 'predicted JOD, less the reference' offset 0, 0.4\n"
-               "set ylabel 'JOD of people, less the reference' offset 1, 0\n"
+               "set xlabel 'predicted JOD, less the reference' offset 0, 0.1\n"
+               "set ylabel 'JOD of people, less the reference' offset 0.3, 0\n"
                "set arrow from {} , {} to {}, {} nohead back linewidth 1 dashtype 2 linecolor rgb "
                "'#777777'\n",
                left / inches, (left + side) / inches, 1 - top / height, (below + under) / height,
                lowest, highest, lowest, highest, tickStep(highest - lowest),
                tickStep(highest - lowest), lowest, lowest, highest, highest) +
-        labels + stampScript(findings, inches, height) + "plot " + plot::list(plots) + "\n";
+        stampScript(findings, inches, height) + labels + "plot " + plot::list(plots) + "\n";
     return figure;
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace obscura {
 
@@ -79,8 +80,11 @@ double PriceAxes::x(const Priced& priced) const {
         return width_ - edge;
     if (*priced.milliseconds == 0)
         return edge;
-    return begin_ +
-           (end_ - begin_) * std::log(*priced.milliseconds / least_) / std::log(most_ / least_);
+    return placeOf(*priced.milliseconds);
+}
+
+double PriceAxes::placeOf(double milliseconds) const {
+    return begin_ + (end_ - begin_) * std::log(milliseconds / least_) / std::log(most_ / least_);
 }
 
 double PriceAxes::y(double jod) const { return height_ * (jod - lowest_) / (highest_ - lowest_); }
@@ -91,26 +95,49 @@ double PriceAxes::milliseconds(double x) const {
     return least_ * std::pow(most_ / least_, (x - begin_) / (end_ - begin_));
 }
 
-std::string PriceAxes::script(bool isCramped) const {
+// 1, then 2 and 5, then the others have their labels as long as there is room.
+std::vector<std::string> PriceAxes::ticks() const {
+    const double room = 0.36;
     const double ends[] = {least_, most_};
+    const std::vector<Tick> all = logarithmicAxis(ends).ticks;
+    std::vector<double> labelled;
+    if (hasFree_)
+        labelled.push_back(edge);
+    if (hasUntimed_)
+        labelled.push_back(width_ - edge - 0.15);
+    std::vector<std::string> texts(all.size());
+    for (const std::string_view digits : {"1", "25", "346789"})
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            const std::string text = format("{:g}", all[i].value);
+            const double x = placeOf(all[i].value);
+            if (digits.find(text[text.find_first_of("123456789")]) != digits.npos &&
+                std::all_of(labelled.begin(), labelled.end(),
+                            [&](double other) { return std::abs(other - x) > room; })) {
+                labelled.push_back(x);
+                texts[i] = text;
+            }
+        }
     std::vector<std::string> ticks;
-    for (const Tick& tick : logarithmicAxis(ends).ticks)
-        ticks.push_back(tick.label.empty() ? format("'' {} 1", tick.value)
-                                           : format("'{}' {}", tick.label, tick.value));
+    for (std::size_t i = 0; i < all.size(); ++i)
+        ticks.push_back(format("'{}' {} {}", texts[i], all[i].value, texts[i].empty() ? 1 : 0));
+    return ticks;
+}
+
+std::string PriceAxes::script() const {
+    std::vector<std::string> marks = ticks();
     std::string script;
     if (hasFree_) {
-        ticks.push_back(format("'free' {}", milliseconds(edge)));
+        marks.push_back(format("'free' {}", milliseconds(edge)));
         script += breakAt((edge + begin_ - 0.1) / 2 / width_ + 0.05 / width_, width_);
     }
     if (hasUntimed_) {
-        ticks.push_back(
-            format("'{}' {}", isCramped ? "ref." : "not timed", milliseconds(width_ - edge)));
+        marks.push_back(format("'reference' {}", milliseconds(width_ - edge)));
         script += breakAt((end_ + width_ - edge) / 2 / width_, width_);
     }
     return script + format("set logscale x\nset xrange [{}:{}]\nset xtics nomirror out ({})\n"
                            "set yrange [{}:{}]\nset ytics nomirror out {}\n",
-                           milliseconds(0), milliseconds(width_), fmt::join(ticks, ", "), lowest_,
-                           highest_, tickStep(highest_ - lowest_));
+                           milliseconds(0), milliseconds(width_), fmt::join(marks, ", "), lowest_,
+                           highest_, tickStep(0.6 * (highest_ - lowest_)));
 }
 
 } // namespace obscura

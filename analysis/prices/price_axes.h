@@ -26,9 +26,12 @@ class PriceAxes {
     double width() const { return width_; }
     double height() const { return height_; }
     // Ranges, ticks and the breaks before and after the milliseconds, for gnuplot.
-    std::string script(bool isCramped) const;
+    std::string script() const;
 
   private:
+    double placeOf(double milliseconds) const;
+    std::vector<std::string> ticks() const;
+
     double width_, height_;
     double least_ = 0, most_ = 0;     // milliseconds
     double begin_ = 0, end_ = 0;      // where these stand

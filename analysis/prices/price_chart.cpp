@@ -18,6 +18,8 @@ using fmt::format;
 constexpr double letter = 0.07, line = 0.15; // inches, of small type on the page
 constexpr double beside = 0.085;             // inches from people's mark to the predicted one
 
+constexpr double left = 0.64, right = 0.16, below = 0.54, title = 0.26; // of a panel
+
 constexpr const char* peopleColour = "#0B5394";
 constexpr const char* predictedColour = "#B35900";
 constexpr const char* plateauColour = "#E9F1E6";
@@ -25,7 +27,9 @@ constexpr const char* plateauColour = "#E9F1E6";
 double widthOf(const std::string& text) { return textWidth(text) / textWidth("x") * letter; }
 
 std::string nameOf(const PricedScale& scale, std::size_t i) {
-    return scale.techniques[i].name + (i == scale.reference ? " (reference)" : "");
+    const Priced& one =
+        scale.techniques[i]; // without a time, the axis says that it is the reference
+    return one.name + (i == scale.reference && one.milliseconds ? " (reference)" : "");
 }
 
 // What is written over the plateau, and whether it stands left of its line.
@@ -37,14 +41,16 @@ struct Heading {
 
 std::optional<Heading> headingOf(const PricedScale& scale, const PriceAxes& axes) {
     const auto& place = scale.enough ? scale.enough : scale.untold;
-    if (!place)
+    if (!place && !scale.seesAll())
         return std::nullopt;
+    if (!place)
+        return Heading{"people saw what the dearest bought", 0.02, false};
     const Priced& one = scale.techniques[place->technique];
     Heading heading{scale.enough
                         ? place->seen.empty()
-                              ? "beyond " + one.name + " nothing that people saw"
-                              : format("beyond {} less than {:g} JOD", one.name, noticeableJod)
-                        : "beyond " + one.name + " nothing shown",
+                              ? "beyond " + one.name + ": nothing that people saw"
+                              : format("beyond {}: less than {:g} JOD", one.name, noticeableJod)
+                        : "beyond " + one.name + ": nothing shown",
                     axes.x(one)};
     heading.isLeft =
         heading.x + 0.08 + widthOf(heading.text) > axes.width() && heading.x > axes.width() / 2;
@@ -96,8 +102,27 @@ std::string names(const PricedScale& scale, const PriceAxes& axes) {
                          axes.height() - line - 0.03,
                          heading->isLeft ? heading->x : heading->x + width, axes.height()});
     }
+    for (const auto& place : {scale.enough, scale.untold})
+        if (place) {
+            const double x = axes.x(scale.techniques[place->technique]);
+            taken.push_back({x - 0.01, 0, x + 0.01, axes.height()});
+        }
+    for (const double jod : {0.0, -noticeableJod})
+        taken.push_back({0, axes.y(jod) - 0.01, axes.width(), axes.y(jod) + 0.01});
+    for (std::size_t k = 0; k < scale.front.size(); ++k) { // the staircase
+        const Priced& here = scale.techniques[scale.front[k]];
+        const double x = axes.x(here), y = axes.y(here.people);
+        if (k + 1 == scale.front.size()) {
+            taken.push_back({x, y - 0.01, axes.width(), y + 0.01});
+            break;
+        }
+        const Priced& next = scale.techniques[scale.front[k + 1]];
+        taken.push_back({x, y - 0.01, axes.x(next), y + 0.01});
+        taken.push_back({axes.x(next) - 0.01, y, axes.x(next) + 0.01, axes.y(next.people)});
+    }
     std::string script;
-    const auto boxes = labelPlaces(points, taken, {0.02, 0.02, axes.width() + 0.1, axes.height()});
+    const auto boxes =
+        labelPlaces(points, taken, {0.02, 0.02, axes.width() + right, axes.height()});
     for (std::size_t i = 0; i < boxes.size(); ++i)
         script += format("set label {} at graph {:.5f}, graph {:.5f} center font ',7' front\n",
                          gnuplotText(nameOf(scale, i)),
@@ -126,12 +151,13 @@ std::string chartScript(const PricedScale& scale, const PriceAxes& axes, std::si
                         scale.techniques[scale.front.back()].people);
     const std::string name = format("chart{}", number);
     std::string script = plot::block(name + "people", people) + plot::block(name + "front", front) +
-                         axes.script(axes.width() < 3) + plateauScript(scale, axes) +
-                         names(scale, axes);
+                         axes.script() + plateauScript(scale, axes) + names(scale, axes);
+    // Two colours, for gnuplot's SVG draws the second of two alike as it drew the first.
     for (const auto& [jod, style] :
-         {std::pair(0.0, "linewidth 1"), std::pair(-noticeableJod, "linewidth 1 dashtype 2")})
-        script += format("set arrow from graph 0, first {0} to graph 1, first {0} nohead back {1} "
-                         "linecolor rgb '#777777'\n",
+         {std::pair(0.0, "linecolor rgb '#777777'"),
+          std::pair(-noticeableJod, "dashtype 2 linecolor rgb '#666666'")})
+        script += format("set arrow from graph 0, first {0} to graph 1, first {0} nohead back "
+                         "linewidth 1 {1}\n",
                          jod, style);
     std::vector<std::string> plots = {
         format("${}front using 1:2 with steps linewidth 1 linecolor rgb '{}' notitle", name,
@@ -172,6 +198,10 @@ std::vector<Entry> keyOf(const std::vector<const PricedScale*>& scales, double w
     if (any([](const PricedScale* one) { return one->enough.has_value(); }))
         entries.push_back({format("nothing dearer is better by {:g} JOD", noticeableJod),
                            mark(5, 1.4, "#BFD4B6")});
+    if (any([](const PricedScale* one) {
+            return one->untold && (!one->enough || one->untold->technique < one->enough->technique);
+        }))
+        entries.push_back({"┊ nothing dearer is shown to be better", "textcolor rgb '#2E5723'"});
     double x = 0.1, y = 0.13;
     for (Entry& entry : entries) {
         const double across = widthOf(entry.text) * 8 / 7 + 0.42;
@@ -195,8 +225,6 @@ std::string keyScript(const std::vector<Entry>& key, double width, double height
     return script;
 }
 
-constexpr double left = 0.62, right = 0.16, below = 0.5, title = 0.26;
-
 } // namespace
 
 Figure priceChart(const Findings& findings, const std::vector<const PricedScale*>& scales,
@@ -210,14 +238,14 @@ Figure priceChart(const Findings& findings, const std::vector<const PricedScale*
     const double head = key.back().y + entryHeight;
     const double height = head + static_cast<double>(rows) * (above + layout.plotHeight + below);
     const PriceAxes axes(scales, plotWidth, layout.plotHeight, 0.24);
-    const PricedScale& first = *scales.front();
     Figure figure{name, heading, {}, layout.width, height};
     figure.script =
         plot::style + format("set minussign\nset bars 0\nunset key\nset grid noxtics ytics\n"
-                             "set xlabel 'milliseconds' offset 0, 0.4\nset ylabel {} offset 1, 0\n"
-                             "set multiplot\n",
-                             gnuplotText(first.isTraced ? "JOD (0: like ray-traced)"
-                                                        : "JOD (0: like the dearest)"));
+                             "set xlabel 'milliseconds' offset 0, 0.1\nset multiplot\n");
+    // Below all else: a picture of its own.
+    if (const std::string stamp = stampScript(findings, layout.width, height); !stamp.empty())
+        figure.script += stamp + "unset border\nunset tics\nset xlabel ' '\nplot [0:1] [0:1] NaN "
+                                 "notitle\nset border 3\nset xlabel 'milliseconds'\n";
     for (std::size_t i = 0; i < scales.size(); ++i) {
         const double x = column * static_cast<double>(i % layout.columns);
         const double top =
@@ -229,13 +257,17 @@ Figure priceChart(const Findings& findings, const std::vector<const PricedScale*
                    "set bmargin at screen {:.5f}\n",
                    (x + left) / layout.width, (x + left + plotWidth) / layout.width, top / height,
                    (top - layout.plotHeight) / height);
+        figure.script +=
+            format("set label {} at screen {:.5f}, screen {:.5f} center rotate by 90\n",
+                   gnuplotText(scales[i]->isTraced ? "JOD (0: like ray-traced)"
+                                                   : "JOD (0: like the dearest)"),
+                   (x + 0.12) / layout.width, (top - layout.plotHeight / 2) / height);
         if (hasTitles)
             figure.script += format("set label {} at screen {:.5f}, screen {:.5f}\n",
                                     gnuplotBold(panelTitle(scales[i]->group)),
                                     (x + 0.1) / layout.width, (top + 0.13) / height);
         if (i == 0)
-            figure.script +=
-                keyScript(key, layout.width, height) + stampScript(findings, layout.width, height);
+            figure.script += keyScript(key, layout.width, height);
         figure.script += chartScript(*scales[i], axes, i);
     }
     figure.script += "unset multiplot\n";

@@ -68,6 +68,9 @@ std::vector<StudyFigure> priceFigures(const Findings& findings) {
     if (!single.empty())
         figures.push_back(figureOf(findings, single, pooled.empty() ? "prices" : "prices-each",
                                    "What milliseconds buy, by scene and level"));
+    if (!pooled.empty() && !single.empty())
+        figures.back().caption = "As in the figure before, of each scene and level for itself, on "
+                                 "axes that all share. Open marks: predicted JOD.";
     if (auto prediction = predictionFigure(findings, predictionOf(scales)))
         figures.push_back(std::move(*prediction));
     return figures;

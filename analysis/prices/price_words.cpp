@@ -37,9 +37,10 @@ std::string enough(const PricedScale& scale) {
                       "better by {} JOD",
                       named(scale, place.technique), noticeableJod, place.seen,
                       spelt(place.seenBy, 2));
-    return format("beyond {} more milliseconds bought nothing that people saw: what is dearer is "
-                  "{} (95 %; the limit is {:g}, with which 63 of 100 would choose it)",
-                  named(scale, place.technique), atMost(place.most), noticeableJod);
+    return format(
+        "beyond {} more milliseconds bought nothing that people saw: what is dearer is {} "
+        "(95 %)",
+        named(scale, place.technique), atMost(place.most));
 }
 
 // The dearest technique below the reference, which still falls short.
@@ -48,7 +49,7 @@ std::string nothing(const PricedScale& scale) {
     for (std::size_t i = 0; i < scale.techniques.size(); ++i)
         if (i != scale.reference && (scale.isTraced || i < scale.reference))
             last = i;
-    if (last == scale.techniques.size() || !scale.techniques[last].interval.high)
+    if (last == scale.techniques.size() || !scale.seesAll())
         return "without intervals nobody can say from where on milliseconds bought nothing";
     const Priced& one = scale.techniques[last];
     return format("people saw what the dearest milliseconds bought: each cheaper technique falls "
@@ -96,9 +97,10 @@ std::string predictionSentence(const Prediction& prediction) {
 
 std::vector<std::string> priceSentences(const std::vector<PricedScale>& scales) {
     std::vector<std::string> sentences;
-    for (const PricedScale& scale : scales)
-        if (scale.hasPrices())
-            sentences.push_back(plateauSentence(scale));
+    for (const bool pooled : {true, false})
+        for (const PricedScale& scale : scales)
+            if (scale.hasPrices() && scale.group.isPooled() == pooled)
+                sentences.push_back(plateauSentence(scale));
     if (sentences.empty() && !scales.empty())
         sentences.push_back(
             "No chart of milliseconds and JOD: the stimuli's manifest has no times, "

@@ -19,7 +19,8 @@ std::string plateauSentence(const PricedScale& scale);
 // How closely predictions and people go together; "" where there are too few techniques.
 std::string predictionSentence(const Prediction& prediction);
 
-// One sentence for each scale, then that of predictions, or why there is no chart.
+// One sentence for each scale, that of all scenes first, or why there is no chart; then that of
+// predictions.
 std::vector<std::string> priceSentences(const std::vector<PricedScale>& scales);
 
 } // namespace obscura

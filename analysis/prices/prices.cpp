@@ -167,6 +167,12 @@ PricedScale pricedScale(const ScaleKind& kind, const ScaleResult& result, const 
 
 } // namespace
 
+bool PricedScale::seesAll() const {
+    return hasPrices() && !enough && !untold &&
+           std::all_of(techniques.begin(), techniques.end(),
+                       [](const Priced& one) { return one.interval.low.has_value(); });
+}
+
 bool PricedScale::hasPrices() const {
     return std::any_of(techniques.begin(), techniques.end(),
                        [](const Priced& one) { return one.milliseconds.value_or(0) > 0; });

@@ -53,6 +53,7 @@ struct PricedScale {
     // shows nothing, for people may have been too few.
     std::optional<Plateau> untold;
 
+    bool seesAll() const;   // each technique below the reference is shown to fall short
     bool hasPrices() const; // somebody measured what a technique costs
 };
 

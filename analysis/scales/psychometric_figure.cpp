@@ -141,7 +141,10 @@ StudyFigure psychometricFigure(const ScaleKind& kind, const ScaleResults& result
         if (labelWidth(result->curve->ladder) > 2.5)
             layout.below = 0.9;
     const PanelFigure made = panelFigure(blocks, begin, panels, layout, stamp);
-    figure.drawing = {name, std::string(kind.heading), made.script, made.width, made.height};
+    figure.drawing = {name,
+                      first.isOrder ? std::string(kind.heading)
+                                    : format("{} of the {}", kind.heading, first.axis),
+                      made.script, made.width, made.height};
     figure.caption = format(
         "{} ({}): share of {} with Wilson's 95 % intervals, larger for more answers; the fitted "
         "curve; in orange its threshold with the 95 % interval ({}). Dotted: what guessing "

@@ -84,8 +84,9 @@ ScaleResult functionOf(const Ladder& ladder) {
                                    model.lapse ? "" : "; of the lapse by parametric bootstrap");
     addDiagnostics(result, fit, bootstrap);
     const double half = probability(model, fit.parameters, fit.parameters.threshold);
-    result.notes.push_back(fmt::format("{:.0f} % {} lie {}", 100 * half, ladder.success,
-                                       between(ladder, fit.parameters.threshold)));
+    result.notes.insert(result.notes.begin(), // where sentences look for it
+                        fmt::format("{:.0f} % {} lie {}", 100 * half, ladder.success,
+                                    between(ladder, fit.parameters.threshold)));
     if (ladder.isOrder)
         result.notes.push_back(
             "steps count 1, 2, 3 ... in the protocol's order: the threshold is a "

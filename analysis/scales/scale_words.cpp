@@ -139,8 +139,9 @@ void addThresholds(const ScaleFindings& scales, std::vector<std::string>& senten
             ++without;
             continue;
         }
-        sentences.push_back(fmt::format("{}: {} (threshold {}, 95 % interval {}).",
+        sentences.push_back(fmt::format("{}: {} ({}threshold {}, 95 % interval {}).",
                                         placeOf(result.group), result.notes.front(),
+                                        result.curve->ladder.isOrder ? "" : result.unit + ": ",
                                         spelt(result.items[0].value, decimalsOf(result)),
                                         spelt(result.items[0].interval, decimalsOf(result))));
     }

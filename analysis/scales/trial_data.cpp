@@ -23,7 +23,7 @@ class Counter {
         for (const auto& [group, form, members] : answers_.groups) {
             if (form == AnswerForm::comparison)
                 addPairLadders(data.ladders, counted(group, members), pairSteps(members), stimuli_,
-                               "choices of b, \"not sure\" half of one");
+                               "choices of b");
             if (form == AnswerForm::comparison || form == AnswerForm::boosted ||
                 form == AnswerForm::plain)
                 data.comparisons.push_back(comparisons(group, form, members));
@@ -126,6 +126,9 @@ class Counter {
 
     ScaleGroup counted(ScaleGroup group, const std::vector<Observation>& members) {
         fill(group, members, false);
+        if (std::any_of(members.begin(), members.end(),
+                        [](const Observation& one) { return one.given->value.text() == "unsure"; }))
+            group.notes.push_back("\"not sure\" is half a choice");
         return group;
     }
 

@@ -261,7 +261,7 @@ std::string introduction(const Sweep& sweep) {
                             machine.method, machine.date));
     if (!machine.display.empty())
         html += element("p", format("JOD (just-objectionable differences) are predicted, by "
-                                    "ColorVideoVDP, for a person before a screen of {}. 10 is no "
+                                    "ColorVideoVDP, for a person before this screen: {}. 10 is no "
                                     "difference from the lit truth; at 9, 75 of 100 would prefer "
                                     "the truth. Nobody has looked.",
                                     machine.display));
@@ -299,7 +299,10 @@ std::string introduction(const Sweep& sweep) {
            "are what remains after each technique was fitted on training views. The full reference "
            "knows the whole scene, the depth-buffer reference only what a depth buffer of one "
            "layer "
-           "can show. A faint line joins the configurations of one technique in order of cost."
+           "can show, its surfaces taken to be as thick as the radius, which is a guess: a "
+           "technique "
+           "may be nearer to the full reference than it is. A faint line joins the configurations "
+           "of one technique in order of cost."
            "</p></details>\n";
 }
 

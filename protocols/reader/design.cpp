@@ -23,10 +23,17 @@ json toJson(const Camera& camera) {
             {"near", near}};
 }
 
+json toJson(const Ground& ground) {
+    const auto& [wall, colour] = ground;
+    return {{"wall", wall}, {"colour", colour}};
+}
+
 json toJson(const View& view) {
-    const auto& [name, file, builtin, camera, radius, exposure, place] = view;
+    const auto& [name, file, builtin, camera, radius, exposure, ground, place] = view;
     json result = {{"camera", toJson(camera)}, {"radius", radius}, {"exposure", exposure}};
     result[file.empty() ? "builtin" : "file"] = file.empty() ? builtin : file;
+    if (ground)
+        result["ground"] = toJson(*ground);
     return result;
 }
 

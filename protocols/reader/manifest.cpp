@@ -33,6 +33,8 @@ json toJson(const View& view) {
                    {"radius", view.radius},
                    {"exposure", view.exposure}};
     result[view.file.empty() ? "builtin" : "file"] = view.file.empty() ? view.builtin : view.file;
+    if (view.ground)
+        result["ground"] = {{"wall", view.ground->wall}, {"colour", view.ground->colour}};
     return result;
 }
 
@@ -217,6 +219,9 @@ View readView(const Node& node) {
     view.camera = readCamera(node["camera"]);
     node["radius"].read(view.radius);
     node["exposure"].read(view.exposure);
+    if (node.has("ground"))
+        view.ground =
+            Ground{node["ground"]["wall"].as<double>(), node["ground"]["colour"].as<Vec3>()};
     return view;
 }
 

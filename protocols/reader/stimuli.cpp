@@ -75,4 +75,14 @@ double predictedJod(const Manifest& manifest, std::string_view condition, std::s
     return image.quality->jod;
 }
 
+bool asksForWorse(const Protocol& protocol, const Condition& condition, const Manifest& manifest) {
+    if (!isOrdered(protocol.trial, condition.correct))
+        return protocol.boost && !isOrdered(protocol.trial, protocol.boost->reference);
+    const double right = predictedJod(manifest, condition.id, condition.correct);
+    return std::any_of(condition.roles.begin(), condition.roles.end(), [&](const Role& role) {
+        return isOrdered(protocol.trial, role.name) &&
+               predictedJod(manifest, condition.id, role.name) > right;
+    });
+}
+
 } // namespace obscura

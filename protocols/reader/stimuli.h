@@ -17,4 +17,9 @@ Manifest readStimuli(const Protocol& protocol, const std::filesystem::path& fold
 // manifest does not have it.
 double predictedJod(const Manifest& manifest, std::string_view condition, std::string_view role);
 
+// Whether who chooses one of a condition's images in order chooses the worse: the right answer is
+// one that another excels by predicted JOD, or all take turns with the source and one flickers
+// more.
+bool asksForWorse(const Protocol& protocol, const Condition& condition, const Manifest& manifest);
+
 } // namespace obscura

@@ -26,6 +26,15 @@ struct Camera {
 // other than straight along `up`, and its angle be below 180 degrees.
 std::string faultOf(const Camera& camera);
 
+// A floor at the lowest point of a scene and a wall behind it, so that what came alone has
+// something to stand on and to shade. Both are matte and reach well beyond the scene.
+struct Ground {
+    double wall = 0;            // z of the wall, which faces +z; metres
+    Vec3 colour{0.5, 0.5, 0.5}; // linear, of 1
+
+    bool operator==(const Ground&) const = default;
+};
+
 // A scene seen from one camera.
 struct View {
     std::string name;
@@ -34,6 +43,7 @@ struct View {
     Camera camera;
     double radius = 0;   // metres: how far occlusion reaches, the same for every technique here
     double exposure = 0; // stops: light is scaled by 2^exposure before the display curve
+    std::optional<Ground> ground;
     Place place;
 };
 

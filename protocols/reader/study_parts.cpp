@@ -95,6 +95,18 @@ void checkName(const TomlTable& table, std::string_view key, const std::string& 
                                                     spelt, name));
 }
 
+namespace {
+
+Ground parseGround(TomlTable table) {
+    Ground ground;
+    ground.wall = table.number("wall", -1e6, 1e6);
+    ground.colour = table.triple("colour", 0, 1, ground.colour);
+    table.finish();
+    return ground;
+}
+
+} // namespace
+
 View parseView(const std::string& name, TomlTable table, bool withRadius) {
     View view;
     view.name = name;
@@ -109,6 +121,8 @@ View parseView(const std::string& name, TomlTable table, bool withRadius) {
     if (withRadius)
         view.radius = table.number("radius", lowestRadius, highestRadius);
     view.exposure = table.number("exposure", -20, 20, view.exposure);
+    if (auto ground = table.table("ground"))
+        view.ground = parseGround(std::move(*ground));
     table.finish();
     return view;
 }

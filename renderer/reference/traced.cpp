@@ -17,7 +17,7 @@ TraceSettings traceSettings(const Settings& settings, std::uint64_t seed) {
 Image tracedVisibility(const RayTracer& tracer, const Surfaces& surfaces, const Settings& settings,
                        std::uint64_t seed) {
     Image result = tracer.trace(surfaces, traceSettings(settings, seed)).visibility;
-    const float intensity = settings["intensity"], power = settings["power"];
+    const float power = settings["power"], intensity = std::copysign(settings["intensity"], power);
     for (float& value : result.pixels)
         value = std::min(std::pow(std::max(1 - intensity * (1 - value), 0.0f), power), 1.0f);
     return result;

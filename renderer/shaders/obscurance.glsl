@@ -21,7 +21,9 @@ float formOneTerm(vec3 v, vec3 normal, float bias, float u) {
 }
 
 // The papers limit each pixel to max(0, 1 - sigma S) before they filter. Sigma is applied after our
-// last pass, so this is the value that it maps to 0.
+// last pass, so this is the value that it maps to 0. With a power below 0 nothing is; then the limit
+// is that of the renderings which such a power is fitted on (matching/match.cpp).
 vec4 visibilityOf(float obscurance) {
-    return vec4(1.0 - min(obscurance, 1.0 / max(settings.intensity, 1e-3)));
+    float sigma = settings.power < 0.0 ? 0.125 : settings.intensity;
+    return vec4(1.0 - min(obscurance, 1.0 / max(sigma, 1e-3)));
 }

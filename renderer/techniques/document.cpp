@@ -58,8 +58,9 @@ std::string rowOf(const Technique& technique) {
         text += "\n| parameter | default | unit | range | meaning | source of the default |\n"
                 "|---|---|---|---|---|---|\n";
     for (const Parameter& p : technique.parameters)
-        text += fmt::format("| `{}` | {} | {} | {} … {} | {} | {} |\n", p.name, p.value,
-                            spell(p.unit), p.low, p.high, p.meaning, p.source);
+        text += fmt::format("| `{}` | {} | {} | {} … {} | {}{} | {} |\n", p.name, p.value,
+                            spell(p.unit), p.low, p.high, p.meaning,
+                            p.fitted ? "; matching may fit it" : "", p.source);
     for (const Preset& preset : technique.presets) {
         std::string values;
         for (const PresetValue& value : preset.values)

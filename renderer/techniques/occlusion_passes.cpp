@@ -65,6 +65,13 @@ std::optional<gl::UniformBuffer> pointsOf(const Settings& settings) {
     return gl::UniformBuffer(std::as_bytes(std::span(points)), kindOf(points));
 }
 
+// What becomes of the last pass's visibility (technique.h); for passes that need it sooner too.
+constexpr const char* finalVisibility = R"(float finalVisibility(float v) {
+    float occlusion = sign(settings.power) * settings.intensity * (1.0 - v);
+    return clamp(pow(max(1.0 - occlusion, 0.0), settings.power), 0.0, 1.0);
+}
+)";
+
 // Whole numbers are constants of the shader, so that its compiler unrolls loops and leaves out what
 // is switched off; what a study fits or a person drags changes without compiling anew.
 std::string declareSettings(const Settings& settings) {
@@ -76,8 +83,9 @@ std::string declareSettings(const Settings& settings) {
                                                  : fmt::format("given.{}", parameter.name));
     }
     return fmt::format("layout(std140, binding = {}) uniform SettingsBlock {{\n{}}} given;\n"
-                       "struct Settings {{\n{}}};\nSettings settings = Settings({});\n",
-                       settingsBinding, members, members, values);
+                       "struct Settings {{\n{}}};\nSettings settings = Settings({});\n{}",
+                       settingsBinding, members, members, values,
+                       settings.has("intensity") ? finalVisibility : "");
 }
 
 void declareBlocks(gl::ShaderText& text, const Settings& settings) {
@@ -149,10 +157,8 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
         call += computes(pass) ? fmt::format(groupShare, pass.stage == Stage::rows ? "x" : "y")
                                : "    value = vec4(float(fetchCount));\n";
     } else if (enabledPasses(settings).back() == &pass) {
-        if (settings.has("intensity"))
-            call += "    value.r = pow(max(1.0 - settings.intensity * (1.0 - value.r), 0.0), "
-                    "settings.power);\n";
-        call += "    value.r = clamp(value.r, 0.0, 1.0);\n";
+        call += settings.has("intensity") ? "    value.r = finalVisibility(value.r);\n"
+                                          : "    value.r = clamp(value.r, 0.0, 1.0);\n";
     }
     if (computes(pass)) {
         // Groups of columns lie along x too: llvmpipe fills its vectors from x alone.

@@ -33,6 +33,7 @@ struct Parameter {
     std::string_view meaning;
     float value, low, high;  // default and range, both ends included
     std::string_view source; // of the default: paper and section, program, or "ours: why"
+    bool fitted = false;     // matching may move it, as it moves the radius multiplier
 };
 
 // How a pass is run. A function of the pass's name in the technique's shader gives each pixel's
@@ -125,11 +126,13 @@ struct Technique {
 
 // Parameters that mean the same in every technique that has them, so the table's users need not
 // know the technique: `radius` (metres) is multiplied by `radiusMultiplier` before the shader sees
-// it; the last pass's visibility v becomes max(0, 1 - intensity (1 - v))^power, clamped to [0, 1].
-// Matching (matching/match.h) fits the latter three. `guardBand` is the share of the image's height
-// that is rendered beyond each of its borders for the technique's eyes only. `downscale` runs all
-// passes on every nth pixel and spreads the result back (renderer/techniques/reduction.h); what
-// sends light cannot.
+// it; the last pass's visibility v becomes max(0, 1 - intensity (1 - v))^power or, where the power
+// is below 0, (1 + intensity (1 - v))^power, clamped to [0, 1]. As the power grows to either side,
+// both tend to exp(-intensity |power| (1 - v)), so that no end of the one is one of all curves.
+// Matching (matching/match.h) fits the latter three, and what a row says is `fitted`. `guardBand`
+// is the share of the image's height that is rendered beyond each of its borders for the
+// technique's eyes only. `downscale` runs all passes on every nth pixel and spreads the result back
+// (renderer/techniques/reduction.h); what sends light cannot.
 
 std::span<const Technique> techniques();
 
@@ -150,7 +153,8 @@ constexpr bool takes(const Parameter& parameter, float value) {
 
 constexpr bool wellFormed(const Parameter& parameter) {
     return !parameter.name.empty() && !parameter.meaning.empty() && !parameter.source.empty() &&
-           takes(parameter, parameter.value);
+           takes(parameter, parameter.value) &&
+           (!parameter.fitted || (!isWhole(parameter) && parameter.value > 0));
 }
 
 constexpr bool wellFormed(const Preset& preset, std::span<const Parameter> parameters) {

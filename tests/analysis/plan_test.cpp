@@ -8,7 +8,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace obscura {
 namespace {
@@ -146,6 +149,105 @@ TEST(Plan, RoundsUpToBalancedOrders) {
     EXPECT_EQ(plan.balance, 28);
     EXPECT_EQ(plan.balanced, 56);
     EXPECT_EQ(plan.invited, 70);
+}
+
+// The manifest of that study, with the JOD of each condition's a and b.
+Manifest imagesOf(const std::vector<std::pair<double, double>>& jods) {
+    Manifest manifest;
+    for (std::size_t i = 0; i < jods.size(); ++i) {
+        ConditionRecord& record = manifest.conditions.emplace_back();
+        record.condition = fmt::format("c{}", i + 1);
+        record.image("a").quality = ImageQuality{0, jods[i].first, {}};
+        record.image("b").quality = ImageQuality{0, jods[i].second, {}};
+    }
+    return manifest;
+}
+
+const StatedPower& statedAt(const Plan& plan, int people) {
+    return *std::find_if(plan.stated.begin(), plan.stated.end(),
+                         [&](const StatedPower& stated) { return stated.people == people; });
+}
+
+// 1 JOD is a share of .75, whose power and numbers are those of R above; the preference does not
+// count.
+TEST(Plan, PeopleWithEyesGoByPredictedJod) {
+    const Protocol study = studyOf(1, oneClaim, 0.1);
+    const Manifest stimuli = imagesOf({{8.2, 9.2}});
+    PlanOptions options;
+    options.participants = 42;
+    options.studies = 1000;
+    const Plan plan = planOf(study, options, {}, &stimuli);
+    ASSERT_EQ(plan.predicted.size(), 1U);
+    EXPECT_DOUBLE_EQ(plan.predicted[0].shareB, 0.75);
+    EXPECT_EQ(plan.predicted[0].unsure, 0);
+    ASSERT_TRUE(plan.tests[0].predicted);
+    EXPECT_NEAR(plan.tests[0].predicted->power.share, 0.919471, 1e-6);
+    EXPECT_EQ(plan.tests[0].predicted->needed, 35);
+    EXPECT_EQ(plan.tests[0].predicted->ninety, 42);
+    EXPECT_NEAR(statedAt(plan, 42).supported[0].share, 0.919471, 4 * std::sqrt(.92 * .08 / 1000));
+    const std::string words = planText(plan);
+    EXPECT_NE(words.find("By predicted JOD (ColorVideoVDP), not by people"), std::string::npos);
+    EXPECT_EQ(words.find("simulatedPreference"), std::string::npos);
+    EXPECT_NE(preregistration(study, plan, "2026-01-31").find("not by people"), std::string::npos);
+    EXPECT_EQ(planText(planOf(study, options)).find("predicted JOD"), std::string::npos);
+}
+
+// R: P <- function(d) .02 + .96 * pnorm((d + qnorm(.6) / u) * u); p <- (P(1) + 1 - P(-1)) / 2; n <-
+// 42; sum(dbinom(k, n, p)) over the k with binom.test(k, n)$p.value <= .05.
+TEST(Plan, LapsesAndPositionBiasCostPower) {
+    const Protocol study =
+        studyOf(1, std::string(oneClaim) + "[simulation]\nlapse = 0.04\npositionBias = 0.1\n");
+    const Manifest stimuli = imagesOf({{8, 9}});
+    PlanOptions options;
+    options.participants = 42;
+    options.studies = 100;
+    const Plan plan = planOf(study, options, {}, &stimuli);
+    EXPECT_NEAR(plan.predicted.at(0).shareB, 0.733485649851, 1e-11);
+    EXPECT_NEAR(plan.tests[0].predicted.value().power.share, 0.874388838931, 1e-10);
+}
+
+// A claim for a has a's share, and where the right answer is the worse image, that one is chosen.
+TEST(Plan, PredictedSharesAreOfTheClaimedRole) {
+    const Manifest stimuli = imagesOf({{9, 8}});
+    PlanOptions options;
+    options.studies = 100;
+    std::string claim = oneClaim;
+    claim += "favours = \"a\"\n";
+    EXPECT_DOUBLE_EQ(
+        planOf(studyOf(1, claim), options, {}, &stimuli).tests[0].predicted.value().share, 0.75);
+    Protocol flicker = studyOf(1, oneClaim);
+    flicker.conditions[0].correct = "b";
+    EXPECT_DOUBLE_EQ(planOf(flicker, options, {}, &stimuli).predicted.at(0).shareB, 0.75);
+}
+
+// R: of 20 people Bin(20, P(a) + P(b)) are sure, P(b) = pnorm(.5 * u), P(a) = pnorm(-1.5 * u); the
+// exact test of theirs.
+TEST(Plan, WhoIsNotSureHasNoVote) {
+    const Protocol study = studyOf(
+        1, std::string(oneClaim) +
+               "[trial]\nphases = [{ name = \"ask\", images = [1, 2], questions = [{ name = "
+               "\"choice\", text = \"question\", options = [\"first\", \"second\"], images "
+               "= true, unsure = \"start\" }] }]\n");
+    const Manifest stimuli = imagesOf({{8, 9}});
+    PlanOptions options;
+    options.participants = 20;
+    options.studies = 4000;
+    const Plan plan = planOf(study, options, {}, &stimuli);
+    EXPECT_NEAR(plan.predicted.at(0).shareB, 0.632033844395, 1e-11);
+    EXPECT_NEAR(plan.predicted.at(0).unsure, 0.212133677982, 1e-11);
+    EXPECT_FALSE(plan.tests[0].predicted);
+    EXPECT_NEAR(statedAt(plan, 20).supported[0].share, 0.634615964952,
+                4.5 * std::sqrt(.6346 * .3654 / 4000));
+    EXPECT_NE(planText(plan).find("21.2 %"), std::string::npos);
+}
+
+TEST(Plan, StimuliWithoutPredictedJodAreRefused) {
+    Manifest stimuli = imagesOf({{8, 9}});
+    stimuli.conditions[0].image("a").quality.reset();
+    EXPECT_NE(test::errorOf([&] {
+                  planOf(studyOf(1, oneClaim), {}, {}, &stimuli);
+              }).find("generate them anew"),
+              std::string::npos);
 }
 
 TEST(Preregistration, SaysWhatIsClaimedAndWhatOnlyAPersonCanSay) {

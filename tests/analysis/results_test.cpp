@@ -55,6 +55,11 @@ TEST(Results, AreTheSameInBothFiles) {
     for (const auto& test : json["tests"])
         compare("test", test["test"].get<std::string>() + ": " + test["about"].get<std::string>(),
                 test["statistics"]);
+    for (const auto& scale : json["scales"])
+        for (const auto& item : scale["items"])
+            compare("scale",
+                    scale["subject"].get<std::string>() + ": " + item["name"].get<std::string>(),
+                    item["statistics"]);
     EXPECT_EQ(numbers, values.size());
     EXPECT_EQ(json["claims"][0]["outcome"], "supported");
     EXPECT_EQ(json["conditions"][2]["family"], "Accuracy matters, \"much\"");

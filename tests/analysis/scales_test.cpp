@@ -239,6 +239,24 @@ TEST(ScalesOfPairs, HoldChoicesAgainstTheStimuli) {
     EXPECT_NEAR(curve.items[0].value, 0, 1e-3);
     EXPECT_LT(*curve.items[0].interval.low, -0.01);
     EXPECT_GT(*curve.items[0].interval.high, 0.01);
+    // Where they tell how far each image is from the reference, that counts instead.
+    for (int i = 0; i < 5; ++i) {
+        ConditionRecord& record = stimuli.conditions[static_cast<std::size_t>(i)];
+        record.image("a").quality = ImageQuality{0.2, 8, {}};
+        record.image("b").quality = ImageQuality{0.2 - difference[i], 8 + 10 * difference[i], {}};
+    }
+    std::vector<std::string> axes;
+    std::vector<double> thresholds;
+    for (const Scaled& one : scaleFindings(tallies, nullptr, &stimuli).all)
+        if (one.result.curve) {
+            axes.push_back(one.result.unit);
+            thresholds.push_back(one.result.items[0].value);
+        }
+    EXPECT_THAT(axes, testing::ElementsAre("difference in predicted JOD",
+                                           "difference in RMSE from the reference"));
+    EXPECT_THAT(thresholds, testing::Each(testing::DoubleNear(0, 1e-3)));
+    stimuli.conditions[2].image("b").derived = Derivation(); // boosted: no longer so far
+    EXPECT_EQ(stimulusMeasures(&stimuli).size(), 1u);
     EXPECT_TRUE(scaleFindings(tallies, nullptr, nullptr).all.empty() ||
                 !scaleFindings(tallies, nullptr, nullptr).all.back().result.curve);
 }

@@ -81,6 +81,69 @@ TEST_F(TrialScales, OfPairsWithNotSureAreDavidsons) {
     EXPECT_TRUE(findings.tallies.empty());
 }
 
+// 12 for b, 3 for a and 6 "not sure": the sign test of the 15 (R: binom.test(12, 15)).
+TEST_F(TrialScales, OfPairsWithNotSureHaveTheirClaimsTested) {
+    const std::string design =
+        R"({"claims":[{"conditions":["c1"],"family":"","favours":"b","kind":"superior",)"
+        R"("margin":0.0,"name":"good is better","scores":[]}]})";
+    std::vector<AnswerRow> rows;
+    for (int person = 1; person <= 21; ++person) {
+        const bool swapped = person % 2;
+        const std::string chosen = person <= 12 ? "b" : "a", first = swapped ? "b" : "a";
+        const bool isUnsure = person > 15;
+        rows.push_back(answerOf(person, 1, "c1", swapped ? "b>a" : "a>b",
+                                swapped ? "good>none" : "none>good", "choice",
+                                isUnsure          ? "unsure"
+                                : chosen == first ? "1"
+                                                  : "2",
+                                isUnsure ? "" : chosen));
+        rows.back().designSha256 = sha256(design);
+    }
+    const Findings findings = study(rows, design);
+    ASSERT_EQ(findings.claims.size(), 1u);
+    const ClaimResult& claim = findings.claims[0];
+    EXPECT_EQ(claim.outcome, ClaimResult::Outcome::supported);
+    EXPECT_EQ(claim.votes, 15);
+    EXPECT_NEAR(claim.test->p, 0.03515625, 1e-12);
+    EXPECT_THAT(claim.notes, Contains("6 answers were \"not sure\" or left open: no votes"));
+    EXPECT_EQ(summaryOf(findings).front(), sentenceOf(claim));
+}
+
+// Choices that could be "not sure", held against predicted JOD: half a choice each. 2, 5 and 8 of
+// ten for differences of -1, 0 and 1 lie on a logistic curve through a half at 0.
+TEST_F(TrialScales, OfPairsWithNotSureAreHeldAgainstPredictedJod) {
+    std::vector<AnswerRow> rows;
+    Manifest stimuli;
+    const int chosen[] = {10, 40, 70}, unsure[] = {20, 20, 20}; // of 100
+    for (int i = 0; i < 3; ++i) {
+        const std::string id = fmt::format("c{}", i + 1);
+        for (int person = 1; person <= 100; ++person) {
+            const bool isUnsure = person > 100 - unsure[i];
+            const std::string role = person <= chosen[i] ? "b" : "a";
+            rows.push_back(answerOf(person, i + 1, id, "a>b", fmt::format("t{}>t{}", i, i + 1),
+                                    "choice",
+                                    isUnsure      ? "unsure"
+                                    : role == "a" ? "1"
+                                                  : "2",
+                                    isUnsure ? "" : role));
+        }
+        ConditionRecord record;
+        record.condition = id;
+        record.image("a").quality = ImageQuality{0.1, 8, {}};
+        record.image("b").quality = ImageQuality{0.1, 8.0 + i - 1, {}};
+        stimuli.conditions.push_back(record);
+    }
+    const std::filesystem::path data[] = {test::writeTrials(folder_.path() / "study", rows)};
+    const Findings findings = trialFindings(data, {}, stimuli);
+    const ScaleResult& curve = resultOf(findings, "psychometric");
+    ASSERT_TRUE(curve.curve);
+    EXPECT_EQ(curve.unit, "difference in predicted JOD");
+    EXPECT_TRUE(curve.curve->ladder.isPredicted);
+    EXPECT_EQ(curve.curve->ladder.data.successes, Eigen::Vector3d(20, 50, 80));
+    EXPECT_NEAR(curve.items[0].value, 0, 1e-4);
+    EXPECT_NEAR(curve.items[1].value, std::log(4.0), 1e-3); // of the logistic: its slope there
+}
+
 TEST_F(TrialScales, OfRatingsAreMeansWithStudentsIntervals) {
     std::vector<AnswerRow> rows;
     const int good[] = {4, 5, 3, 4}, none[] = {2, 1, 3, 2};

@@ -23,13 +23,13 @@ struct Kind {
     const char* sentence; // that the terminal prints
 };
 
-std::string outputOf(const std::string& command) {
+std::string outputOf(const std::string& command, int status = 0) {
     std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
     std::string output;
     char buffer[4096];
     while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, pipe))
         output.append(buffer, count);
-    EXPECT_EQ(WEXITSTATUS(::pclose(pipe)), 0) << output;
+    EXPECT_EQ(WEXITSTATUS(::pclose(pipe)), status) << output;
     return output;
 }
 
@@ -80,7 +80,7 @@ const Kind kinds[] = {
     {"constant-stimuli", "psychometric", 2, "75 % right answers lie between rays"},
     {"flicker", "psychometric", 2, "75 % right answers lie "},
     {"kozlowski-kautz-2007", "mean-opinion", 8, "appeal: atrium, sky: "},
-    {"ladder", "thurstone", 5, "circular triads, of 12 people"},
+    {"ladder", "threshold", 5, "answers \"not sure\""},
     {"demo", "thurstone", 3, "were never compared with each other"},
     {"mlds", "mlds", 1, "corrected by Holm) — larger: atrium, sky: s0"},
     {"p910-acr", "cumulative-link", 4, "quality: atrium, sky: "},
@@ -116,6 +116,45 @@ TEST_P(LadderStudy, FindsTheThresholdThatWasSimulated) {
 INSTANTIATE_TEST_SUITE_P(Protocols, LadderStudy,
                          testing::Values(Kind{"constant-stimuli", "", 2, ""},
                                          Kind{"staircase", "", 1, ""}));
+
+// People who see choose by the predicted JOD of the manifest, and the analysis gives it back.
+TEST(StudyWithEyes, IsAScaleOfPredictedJod) {
+    const std::map<std::string, double> jods = {{"none", 8.1}, {"cheap", 8.8}, {"good", 10}};
+    const test::Folder folder;
+    const fs::path protocol = OBSCURA_SOURCE "/protocols/p910-pc.toml",
+                   stimuli = folder / "stimuli";
+    test::writeNoiseStimuli(readProtocol(protocol), stimuli);
+    const std::string plan =
+        fmt::format("'{}/obscura-analysis' plan '{}' --observer jod --stimuli "
+                    "'{}' --studies 100 --out '{}'",
+                    OBSCURA_BIN, protocol.string(), stimuli.string(), (folder / "plan").string());
+    EXPECT_THAT(outputOf(plan, 1), HasSubstr("generate them anew with obscura-stimuli"));
+    Manifest manifest = readManifest(stimuli / "manifest.json");
+    manifest.display = displays().front();
+    for (ConditionRecord& condition : manifest.conditions)
+        for (ImageRecord& image : condition.images)
+            image.quality = ImageQuality{0.1, jods.at(image.name), std::string(64, '0')};
+    writeManifest(stimuli / "manifest.json", manifest);
+
+    // 0.7 JOD, in R: pnorm(.7 * qnorm(.75)) is .6816.
+    EXPECT_THAT(outputOf(plan), HasSubstr("68.2 %"));
+    const std::string data = (folder / "data").string();
+    outputOf(fmt::format("'{}/obscura-experiment' --protocol '{}' --stimuli '{}' --data '{}' "
+                         "--simulate 30 --observer jod",
+                         OBSCURA_BIN, protocol.string(), stimuli.string(), data));
+    outputOf(fmt::format("'{}/obscura-analysis' '{}/p910-pc' --out '{}'", OBSCURA_BIN, data,
+                         (folder / "report").string()));
+    int steps = 0;
+    for (const test::Row& row : test::rowsOf(folder / "report" / "scales.csv"))
+        if (row.at("scale") == "thurstone" && row.at("what") == "step") {
+            ++steps;
+            const double truth = row.at("other") == "none" ? 0.7 : 1.2;
+            EXPECT_LT(std::stod(row.at("low")), truth) << row.at("scene");
+            EXPECT_GT(std::stod(row.at("high")), truth) << row.at("scene");
+            EXPECT_EQ(row.at("source"), "SIMULATED");
+        }
+    EXPECT_EQ(steps, 6);
+}
 
 } // namespace
 } // namespace obscura

@@ -25,13 +25,17 @@ Image target(double low, const Remap& remap) {
     return image([&](double t) { return remapped(1 - (1 - low) * (1 - t), remap); });
 }
 
-const Tunable bothFree{{1, 1}, Range{0.01, 100}, Range{0.1, 10}};
+const Tunable bothFree{{1, 1}, Range{1e-4, 100}, Range{0.1, 64}};
 
 TEST(Remap, IsTheTablesFormula) {
     EXPECT_DOUBLE_EQ(remapped(0.25, {1, 1}), 0.25);
     EXPECT_DOUBLE_EQ(remapped(0.5, {1.5, 2}), 0.0625); // (1 - 1.5 / 2)^2
     EXPECT_DOUBLE_EQ(remapped(0.2, {2, 1}), 0);        // 1 - 2 * 0.8 < 0
     EXPECT_DOUBLE_EQ(remapped(1.5, {1, 2}), 1);
+    EXPECT_DOUBLE_EQ(remapped(0.25, {4, -2}), 0.0625); // (1 + 4 * 3 / 4)^-2
+    EXPECT_DOUBLE_EQ(remapped(1.5, {3, -2}), 1);       // 1 - 3 / 2 < 0
+    for (const double power : {64.0, -64.0})           // to either side it tends to exp()
+        EXPECT_NEAR(remapped(0.2, {1.5 / 64, power}), std::exp(-1.5 * 0.8), 0.005);
 }
 
 TEST(Comparison, CountsAsTheImagesDo) {
@@ -65,14 +69,54 @@ TEST(Comparison, WeighsViewsAlikeAndLeavesOutEmptyPixels) {
 }
 
 TEST(FitRemap, RecoversWhatMadeTheTarget) {
-    for (const Remap& truth : {Remap{1, 1}, Remap{0.6, 2.2}, Remap{1.7, 0.5}}) {
+    for (const Remap& truth : {Remap{1, 1}, Remap{0.6, 2.2}, Remap{1.7, 0.5}, Remap{0.12, 20},
+                               Remap{0.3, -9}, Remap{3, -0.7}}) {
         Comparison comparison;
         comparison.add(ramp(0.1, 1), 1, target(0.1, truth), all);
         const FittedRemap fitted = fitRemap(comparison, bothFree, Criterion::leastSquares);
         EXPECT_NEAR(fitted.remap.intensity, truth.intensity, 0.01 * truth.intensity);
-        EXPECT_NEAR(fitted.remap.power, truth.power, 0.01 * truth.power);
+        EXPECT_NEAR(fitted.remap.power, truth.power, 0.01 * std::abs(truth.power));
         EXPECT_LT(fitted.error, 1e-5);
     }
+}
+
+// No power gives this, but the largest are as good as it; from both sides, for 64 and -64 differ
+// by next to nothing.
+TEST(FitRemap, FindsTheExponential) {
+    Comparison comparison;
+    comparison.add(ramp(0.1, 1), 1, image([](double t) { return std::exp(-1.8 * (1 - t)); }), all);
+    const Remap fitted = fitRemap(comparison, bothFree, Criterion::leastSquares).remap;
+    EXPECT_EQ(std::abs(fitted.power), 64);
+    EXPECT_NEAR(fitted.intensity * std::abs(fitted.power), 2, 0.02); // 1.8 / (1 - 0.1)
+    EXPECT_LT(comparison.meanSquare(fitted), 1e-5);
+}
+
+// The mean of the truth where a technique sees full occlusion is often far from black, for much of
+// that is false: the curve must be able to flatten.
+TEST(FitRemap, FlattensWhereTheTargetDoes) {
+    Comparison comparison;
+    comparison.add(ramp(0, 1), 1, image([](double t) { return 0.4 + 0.6 * std::pow(t, 9); }), all);
+    const FittedRemap fitted = fitRemap(comparison, bothFree, Criterion::leastSquares);
+    EXPECT_LT(fitted.remap.power, 0);
+    double exponential = 1;
+    for (double product = 0.1; product < 10; product *= 1.01)
+        exponential = std::min(exponential, comparison.meanSquare({product / 64, 64}));
+    EXPECT_LT(fitted.error, 0.5 * exponential);
+}
+
+// What is a little nearer on training views by flattening is not on others.
+TEST(FitRemap, FlattensForMoreThanALittle) {
+    const auto fitTo = [](double noise) { // that no curve can follow
+        Comparison comparison;
+        comparison.add(ramp(0, 1), 1, image([&](double t) {
+                           const bool odd = static_cast<int>(t * (pixels - 1) + 0.5) % 2 != 0;
+                           return remapped(t, {0.3, -9}) + (odd ? noise : -noise);
+                       }),
+                       all);
+        return fitRemap(comparison, bothFree, Criterion::leastSquares).remap;
+    };
+    EXPECT_NEAR(fitTo(0).power, -9, 0.1);
+    EXPECT_EQ(fitTo(0.1).power, 64);
 }
 
 // Raw visibility down to -3: clamped at black it would no longer tell how much to lighten.
@@ -140,6 +184,30 @@ TEST(FitMultiplier, FindsTheLeastWithFewRenderings) {
         EXPECT_NEAR(std::log2(found / truth), 0, 0.05) << truth;
         EXPECT_LE(evaluations, 18) << truth;
     }
+}
+
+// A valley that lies across the axes, as reach and falloff do.
+TEST(FitScales, FollowsAValley) {
+    int evaluations = 0;
+    const auto error = [&](const std::vector<double>& at) {
+        ++evaluations;
+        const double sum = std::log2(at[0]) + std::log2(at[1]),
+                     difference = std::log2(at[0]) - std::log2(at[1]) - 1.2;
+        return 0.01 + 0.1 * sum * sum + 0.01 * difference * difference;
+    };
+    const std::vector<double> found = fitScales(error, {1.5, 0.6}, {{0.05, 20}, {0.04, 1}});
+    EXPECT_NEAR(std::log2(found[0]), 0.6, 0.15);
+    EXPECT_NEAR(std::log2(found[1]), -0.6, 0.15);
+    EXPECT_LE(evaluations, fitScalesEvaluations + 1);
+}
+
+TEST(FitScales, KeepsTheStartAndTheRanges) {
+    const std::vector<double> start{1.5, 0.6};
+    EXPECT_EQ(fitScales([](const auto&) { return 1.0; }, start, {{0.05, 20}, {0.04, 1}}), start);
+    const auto found =
+        fitScales([](const auto& at) { return at[0] - at[1]; }, start, {{1.2, 20}, {0.04, 0.8}});
+    EXPECT_NEAR(found[0], 1.2, 1e-9);
+    EXPECT_NEAR(found[1], 0.8, 1e-9);
 }
 
 TEST(FitMultiplier, KeepsTheStartAndTheRange) {

@@ -119,6 +119,22 @@ TEST_F(Match, RecoversKnownSettings) {
     EXPECT_NEAR(row(fitted, true, "matched").error.bias, 0, 1e-3); // equal mean occlusion
 }
 
+// What a row says may be fitted is, unless the study gives it.
+TEST_F(Match, FindsTheFalloffOfARowThatLetsIt) {
+    const auto marched = [](const std::string& name, const std::string& settings) {
+        return "[techniques." + name + "]\ntechnique = \"ray_march\"\n" + settings;
+    };
+    const MatchResult result = run(studyText(
+        "partner = \"near\"",
+        marched("near", "attenuation = 0.1\nradiusMultiplier = 1.2\nintensity = 1\npower = 1\n") +
+            marched("free", "") + marched("given", "attenuation = 0.35\n")));
+    const MatchedTechnique &free = result.techniques[1], &given = result.techniques[2];
+    EXPECT_NEAR(std::log2(free.fitted.at("attenuation") / 0.1), 0, 0.5);
+    EXPECT_EQ(given.fitted.count("attenuation"), 0u);
+    EXPECT_LT(row(free, false, "matched").error.rmse,
+              0.5 * row(given, false, "matched").error.rmse);
+}
+
 TEST_F(Match, ImprovesOnARayTracedReference) {
     const MatchResult result =
         run(studyText("reference = \"cosine\"\nscores = [\"uniform\"]", crytek + unknown));

@@ -31,7 +31,7 @@ std::set<std::string> sourcesOf(const std::string& function) {
 bool decidesNothing(const std::string& stem) {
     static const std::set<std::string> names{"error", "files",    "manifest", "protocol", "markup",
                                              "trial", "progress", "process",  "version",  "code",
-                                             "timer", "window",   "builtin"};
+                                             "timer", "window",   "builtin",  "study"};
     return names.contains(stem);
 }
 

@@ -104,8 +104,8 @@ class Generate : public testing::Test {
         EXPECT_NO_THROW(verified(text)) << "after: " << fault;
         return fault;
     }
-    void checked(const std::string& text) {
-        check(parseProtocol(text, "tiny.toml"), folders(), context_->driver(), quiet);
+    std::vector<std::string> checked(const std::string& text) {
+        return check(parseProtocol(text, "tiny.toml"), folders(), context_->driver(), quiet);
     }
     // A floor before a wall in place of the triangle, so that rays meet something.
     void makeCorner() const {
@@ -412,7 +412,7 @@ TEST_F(Generate, AManifestWithoutTheCodeProvesNothing) {
     const GenerateResult again = run();
     EXPECT_EQ(again.rendered, 4);
     EXPECT_THAT(again.warnings,
-                testing::ElementsAre(testing::HasSubstr("manifest.json is of version 1")));
+                testing::Contains(testing::HasSubstr("manifest.json is of version 1")));
 }
 
 // Only what is behind the camera's centre differs: a wall that fills the image, nearer and farther,
@@ -566,11 +566,59 @@ TEST_F(Generate, CheckingLoadsScenesAndEnvironments) {
 
 // Never a silent difference between a scene and its image.
 TEST_F(Generate, TellsWhatASceneUsesAndWeDoNotShow) {
-    EXPECT_THAT(run().warnings, testing::IsEmpty());
+    EXPECT_THAT(run().warnings, testing::Not(testing::Contains(testing::HasSubstr("material"))));
     writeFile(root_ / "scenes" / "t.gltf", triangleGltf("", R"(,"alphaMode":"BLEND")"));
-    EXPECT_THAT(run().warnings,
-                testing::ElementsAre(
-                    "scene \"triangle\": material \"m\" is translucent; it is drawn opaque"));
+    EXPECT_THAT(
+        run().warnings,
+        testing::Contains("scene \"triangle\": material \"m\" is translucent; it is drawn opaque"));
+}
+
+// What is drawn and what rays meet.
+TEST_F(Generate, AGroundOccludesWhatStandsOnIt) {
+    const auto grounded = [](const std::string& ground) {
+        std::string text = tracedText();
+        text.replace(text.find("radius = 0.3"), 0, "ground = { " + ground + " }\n");
+        return text;
+    };
+    const std::string near = grounded("wall = -0.1");
+    const GenerateResult result = run(near);
+    for (const ImageRecord& image : result.manifest.conditions[0].images)
+        EXPECT_GT(image.meanOcclusion, 0.03) << image.name;
+    EXPECT_THAT(result.warnings,
+                testing::Not(testing::Contains(testing::HasSubstr("next to nothing occludes"))));
+    EXPECT_EQ(verified(near), 0);
+    EXPECT_EQ(run(grounded("wall = -0.1, colour = [0.5, 0.5, 0.4]")).kept, 0);
+    EXPECT_THAT(test::errorOf([&] { run(grounded("wall = 0.1")); }),
+                testing::AllOf(testing::StartsWith("tiny.toml:4:1: scenes.triangle: ground.wall"),
+                               testing::HasSubstr("begins at z = 0, found z = 0.1")));
+}
+
+// A triangle alone: nothing occludes it, and a technique that knows so is as open as none.
+TEST_F(Generate, WarnsOfConditionsThatAreWorthNothing) {
+    using testing::AllOf, testing::ElementsAre, testing::HasSubstr, testing::IsEmpty;
+    const auto nothingOccludes =
+        AllOf(HasSubstr("condition \"second\", view \"triangle\": next to nothing occludes"),
+              HasSubstr("radius of 0.3 m; by rays the mean occlusion is 0.0000"));
+    const auto alike =
+        AllOf(HasSubstr("condition \"second\": images a (none) and b (few) look alike"),
+              HasSubstr("1 of 255 at most and 0.04 on average, predicted JOD 10.00 of 10"));
+    EXPECT_THAT(checked(protocolText()), ElementsAre(nothingOccludes, alike));
+    EXPECT_THAT(run().warnings, ElementsAre(nothingOccludes, alike));
+    EXPECT_THAT(run().warnings, IsEmpty()) << "of images that are kept";
+
+    std::string text = protocolText(); // a threshold is looked for
+    text.replace(text.find("id = \"second\""), 0, "correct = \"b\"\n");
+    EXPECT_THAT(checked(text), ElementsAre(nothingOccludes));
+
+    text = protocolText();
+    text.replace(text.find("0.5, 1.5]"), 9, "0.5, 15]");
+    EXPECT_THAT(checked(text),
+                testing::Contains(HasSubstr("view \"triangle\": the view is all but empty; 0.")));
+
+    makeCorner();
+    text = protocolText();
+    text.replace(text.rfind("level = \"high\""), 14, "level = \"low\"");
+    EXPECT_THAT(checked(text), IsEmpty());
 }
 
 TEST_F(Generate, AMissingSceneNamesItsFile) {

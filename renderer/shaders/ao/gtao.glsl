@@ -72,11 +72,13 @@ vec3 leanOf(Point p, Slice slice, float direction, vec2 horizon) {
     return lean.x * direction * slice.side + lean.y * p.view;
 }
 
-// The minimum is meant for the final visibility, (1 - intensity (1 - v))^power. It becomes the
-// bound of v that gives it.
+// The minimum is meant for the final visibility. It becomes the bound of v that gives it.
 float atLeastMinimum(float v) {
-    float least = pow(settings.minimumVisibility, 1.0 / settings.power);
-    return max(v, 1.0 - (1.0 - least) / max(settings.intensity, 1e-6));
+    float minimum = settings.minimumVisibility;
+    if (settings.power < 0.0)
+        minimum = max(minimum, 1e-6); // nothing becomes 0, and pow(0) would be undefined
+    float least = pow(minimum, 1.0 / settings.power);
+    return max(v, 1.0 - sign(settings.power) * (1.0 - least) / max(settings.intensity, 1e-6));
 }
 
 // Visibility, and where bent normals are asked for the mean open direction (view space;
@@ -154,6 +156,6 @@ vec4 bentLight(ivec2 pixel) {
     mat3 worldFromView = mat3(frame.worldFromView);
     vec3 fromBent = irradianceAt(worldFromView * normalize(bent));
     vec3 fromNormal = irradianceAt(worldFromView * texelFetch(normalBuffer, pixel, 0).xyz);
-    float final = min(pow(max(1.0 - settings.intensity * (1.0 - v), 0.0), settings.power), 1.0);
-    return vec4(v, texelFetch(albedoBuffer, pixel, 0).rgb * (fromBent - fromNormal) / pi * final);
+    return vec4(v, texelFetch(albedoBuffer, pixel, 0).rgb * (fromBent - fromNormal) / pi *
+                       finalVisibility(v));
 }

@@ -211,6 +211,6 @@ vec4 bleed(ivec2 pixel) {
     float visibility = settings.blur < 0.5 ? texelFetch(gatherResult, pixel, 0).r
                                            : texelFetch(blurDownResult, pixel, 0).r;
     vec3 taken = filtered(tintAcrossResult, pixel, ivec2(0, 1)).rgb;
-    float shown = pow(max(1.0 - settings.intensity * (1.0 - visibility), 0.0), settings.power);
-    return vec4(visibility, -texelFetch(ambientLight, pixel, 0).rgb * min(shown, 1.0) * taken);
+    return vec4(visibility,
+                -texelFetch(ambientLight, pixel, 0).rgb * finalVisibility(visibility) * taken);
 }

@@ -45,7 +45,8 @@ constexpr Parameter attenuation{
     0.35f,
     1e-3f,
     1e3f,
-    byEye};
+    byEye,
+    true};
 constexpr Parameter accessibilityPower{
     "accessibilityPower", Unit::ratio, "exponent of a sample's accessibility", 2, 0.01f, 64, byEye};
 

@@ -34,7 +34,14 @@ constexpr Parameter intensity(float value = 1, std::string_view source = "neutra
 }
 
 constexpr Parameter power(float value = 1, std::string_view source = "neutral") {
-    return {"power", Unit::ratio, "exponent of visibility", value, 0.01f, 64, source};
+    return {"power",
+            Unit::ratio,
+            "exponent of visibility; below 0, of 1 plus occlusion, which darkens ever less and "
+            "never to black",
+            value,
+            -64,
+            64,
+            source};
 }
 
 constexpr Parameter downscale{

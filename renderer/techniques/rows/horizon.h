@@ -29,7 +29,8 @@ constexpr Parameter horizonAttenuation{
     1,
     0,
     1,
-    "NVIDIA SDK 10, HBAO sample by the paper's authors"};
+    "NVIDIA SDK 10, HBAO sample by the paper's authors",
+    true};
 
 constexpr Parameter horizonReach{"screenReach",
                                  Unit::ratio,

@@ -1,9 +1,11 @@
 #include "base/files.h"
 #include "bench/sweep/figures.h"
+#include "bench/sweep/summary.h"
 #include "tests/bench/sweep/sample_sweep.h"
 #include "tests/folder.h"
 #include "tests/report/xml.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace obscura {
@@ -11,6 +13,7 @@ namespace {
 
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
@@ -33,6 +36,16 @@ TEST(Figures, AreDrawnWithNamesAsTheyAreWritten) {
     }
     EXPECT_THAT(readFile(folder / (figures[0].name + ".svg")),
                 HasSubstr("it's {x}_y ^ &lt;z> &amp; \"w\""));
+}
+
+TEST(Figures, SayHowUncertainTimesAreWhereTheyAre) {
+    Sweep sweep = test::smallSweep();
+    EXPECT_THAT(sweepFigures(sweep)[0].script, Not(HasSubstr("dotted")));
+    for (std::size_t i = 0; i < sweep.rows.size(); i += 4)
+        sweep.rows[i].toStarcraft /= 1.2;
+    EXPECT_THAT(sweepFigures(sweep)[0].script,
+                HasSubstr(fmt::format("dotted: the front, times ±{:.1f} %",
+                                      100 * uncertaintyOf(groupsOf(sweep.rows)[0]))));
 }
 
 TEST(Figures, AreNotDrawnOfNothing) {

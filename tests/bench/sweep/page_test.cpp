@@ -74,7 +74,7 @@ TEST(SweepPage, SaysThatJodIsPredictedAndOnWhichScreen) {
         row.litMatched.jod = row.view == "view 1" ? 8.5 : 9; // mean 8.75
     std::string page = sweepPage(sweep, ".");
     EXPECT_EQ(test::faultOfXml(page), "");
-    EXPECT_THAT(page, HasSubstr("for a person before a screen of 24-inch &lt;wide&gt;. 10 is no"));
+    EXPECT_THAT(page, HasSubstr("for a person before this screen: 24-inch &lt;wide&gt;. 10 is no"));
     EXPECT_THAT(page, HasSubstr("10 − predicted JOD of the lit image, matched, full reference"));
     EXPECT_THAT(page, HasSubstr("data-error=\"1.25\""));
     EXPECT_EQ(count(page, "<td class=\"number\">8.75</td>"), // in the ranking and the details

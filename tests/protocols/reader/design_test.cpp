@@ -31,6 +31,7 @@ camera = { position = [0, 1, 3], target = [0, 0.5, 0], up = [0, 1, 0], fovDegree
 [scenes.hall]
 file = "hall.glb"
 radius = 0.3
+ground = { wall = -3, colour = [0.9, 0.8, 0.7] }
 camera = { position = [0, 1, 3], target = [0, 0.5, 0] }
 [scenes.spare]
 file = "spare.glb"
@@ -144,6 +145,8 @@ const Turn turns[] = {
      "position = [0, 1, 4], target = [0, 0.5, 0], up", Part::stimuli},
     {"target = [0, 0.5, 0], up", "target = [0, 0.6, 0], up", Part::stimuli},
     {"hall.glb", "halls.glb", Part::stimuli},
+    {"wall = -3", "wall = -4", Part::stimuli},
+    {"colour = [0.9", "colour = [0.8", Part::stimuli},
     {"ambient = [1, 1, 1]", "ambient = [1, 1, 0.9]", Part::stimuli},
     {"background = [0.5, 1, 1]", "background = [0.6, 1, 1]", Part::stimuli},
     {"sky.hdr", "skies.hdr", Part::stimuli},

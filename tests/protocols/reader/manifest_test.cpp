@@ -29,6 +29,7 @@ Manifest sample() {
     pair.image("a").name = "none";
     pair.image("a").recipe.view.builtin = "sculpture";
     pair.image("a").recipe.view.camera.position = {0.1, 1.0 / 3, 3};
+    pair.image("a").recipe.view.ground = Ground{-1.5, {0.1, 0.2, 1.0 / 3}};
     pair.image("a").recipe.level.sky = Sky{};
     pair.image("a").recipe.level.sun = Sun{30, 50, {1, 2, 3}};
     pair.image("a").recipe.technique = "none";
@@ -115,6 +116,8 @@ TEST(ManifestTest, EveryPartOfARecipeChangesItsHash) {
         {"scene", [](Recipe& r) { r.sceneSha256 = "x"; }},
         {"camera", [](Recipe& r) { r.view.camera.fovDegrees += 1e-9; }},
         {"near", [](Recipe& r) { r.view.camera.near = 1; }},
+        {"wall", [](Recipe& r) { r.view.ground->wall = 1; }},
+        {"colour", [](Recipe& r) { r.view.ground->colour[1] = 1; }},
         {"exposure", [](Recipe& r) { r.view.exposure = 1; }},
         {"sky", [](Recipe& r) { r.level.sky->ground[2] = 0; }},
         {"sun", [](Recipe& r) { r.level.sun->azimuthDegrees = 0; }},

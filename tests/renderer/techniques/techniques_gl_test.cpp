@@ -195,6 +195,36 @@ TEST_P(EveryTechnique, EverySettingChangesThePicture) {
     }
 }
 
+// The last step, worked out here from a picture that was darkened faintly and straight, so that
+// half-floats have kept what lies below black.
+TEST_P(EveryTechnique, IntensityAndPowerShapeWhatTheLastPassGives) {
+    Settings settings = defaults();
+    if (!settings.has("intensity"))
+        return;
+    if (settings.has("minimumVisibility"))
+        settings.set("minimumVisibility", 0);
+    const auto with = [&](double intensity, double power) {
+        settings.set("intensity", intensity);
+        settings.set("power", power);
+        return picture(settings);
+    };
+    constexpr double faint = 0.125;
+    const Image base = with(faint, 1);
+    for (const auto& [intensity, power] : {std::pair(0.1, 3.0), std::pair(0.02, 64.0),
+                                           std::pair(2.0, -1.5), std::pair(0.05, -40.0)}) {
+        const Image shaped = with(intensity, power);
+        for (std::size_t i = 0; i < shaped.pixels.size();
+             i += static_cast<std::size_t>(shaped.channels)) {
+            const double occlusion = (1 - static_cast<double>(base.pixels[i])) / faint;
+            const double expected = power > 0
+                                        ? std::pow(std::max(1 - intensity * occlusion, 0.0), power)
+                                        : std::pow(1 + intensity * occlusion, power);
+            ASSERT_NEAR(static_cast<double>(shaped.pixels[i]), std::min(expected, 1.0), 0.015)
+                << intensity << " " << power << ", occlusion " << occlusion;
+        }
+    }
+}
+
 TEST_P(EveryTechnique, RefusesWhatIsOutsideItsRanges) {
     for (const Parameter& parameter : row().parameters) {
         Settings settings = defaults();
@@ -224,6 +254,20 @@ std::vector<std::string> allTechniques() {
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryTechnique, testing::ValuesIn(allTechniques()),
                          [](const auto& test) { return test.param; });
+
+// What GTAO's minimum holds is the final visibility, whatever shapes it.
+TEST_F(GlTest, TheMinimumOfVisibilityHoldsUnderEveryPower) {
+    Settings settings(technique("gtao"));
+    settings.set("minimumVisibility", 0.7);
+    settings.set("denoise", 0);
+    for (const auto& [intensity, power] : {std::pair(1.0, 2.2), std::pair(4.0, -2.2)}) {
+        settings.set("intensity", intensity);
+        settings.set("power", power);
+        const Image image = visibilityOf(blockScene(1), cameraAt(1), settings, 96, 64);
+        EXPECT_NEAR(*std::min_element(image.pixels.begin(), image.pixels.end()), 0.7f, 2e-3f)
+            << power;
+    }
+}
 
 // Faults that the thesis shows in its figure 17, and which a faithful implementation has.
 

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "renderer/render.h"
+
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+// What makes conditions worthless and is no mistake of the file: images that look alike, a view of
+// next to nothing, a radius within which nothing occludes. Found in renderings of 160 pixels
+// across, in little more time than it takes to load scenes and compile shaders.
+class Warnings {
+  public:
+    Warnings(const Protocol& protocol, RecipeRenderer& renderer)
+        : protocol_(protocol), renderer_(renderer) {}
+
+    // `recipes` are those of the condition's roles. Each warning is a text with the condition,
+    // figures, and what to do; what is wrong with a view is said once. Images of a condition that
+    // has a right answer may look alike: whoever looks for a threshold needs such.
+    std::vector<std::string> of(const Condition& condition, std::span<const Recipe> recipes);
+
+  private:
+    const Rendering& glance(const Recipe& recipe);
+    std::string faultOfView(const Condition& condition, std::span<const Recipe> recipes);
+    std::string alike(const Condition& condition, const Role& a, const Role& b, const Image8& first,
+                      const Image8& second) const;
+
+    const Protocol& protocol_;
+    RecipeRenderer& renderer_;
+    std::map<std::string, Rendering> glances_; // by the hash of the recipe
+    std::set<std::string> views_;              // looked at
+};
+
+} // namespace obscura
