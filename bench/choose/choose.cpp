@@ -1,10 +1,10 @@
 #include "bench/choose/choose.h"
 
+#include "bench/choose/results.h"
 #include "bench/choose/stages.h"
 #include "bench/measure/machine.h"
 #include "bench/measure/timing.h"
 #include "bench/motion/steadiness.h"
-#include "bench/sweep/summary.h"
 #include "matching/match.h"
 #include "matching/match_files.h"
 #include "matching/truths.h"
@@ -36,32 +36,10 @@ const std::string& nameOf(const Candidate& candidate) {
     return candidate.configuration.setting.name;
 }
 
-// Time and flicker are not known yet, and within any limit.
-ViewResult resultOf(const PictureError& matched, const PictureError& lit) {
-    ViewResult result;
-    result.rmse = matched.rmse;
-    result.flip = matched.flip;
-    result.litFlip = lit.flip;
-    result.jod = lit.jod;
-    return result;
-}
-
 ViewResult resultOn(MeasuredView& seen, const Configuration& configuration) {
     const ViewErrors errors =
         seen.errorsOf(seen.probe().visibility(settingsAt(configuration, seen.view().radius, true)));
     return resultOf(errors.full, errors.lit);
-}
-
-// Candidate::training. Flicker is not known.
-double promise(const Budget& budget, std::span<const ViewResult> views) {
-    double worst = 0;
-    for (const Measure& measure : measures())
-        if (const auto limit = budget.*measure.limit;
-            limit && measure.value != &ViewResult::flicker)
-            worst = std::max(worst, measure.distance(meanOf(views, measure.value)) /
-                                        std::max(measure.distance(*limit), 1e-9));
-    const Measure& by = budget.best ? *budget.best : measureNamed("rmse");
-    return worst > 0 ? worst : by.distance(meanOf(views, by.value));
 }
 
 class Choosing {
@@ -448,16 +426,6 @@ Choice Choosing::run() {
 
 } // namespace
 
-double worth(const Budget& budget, const Candidate& candidate) {
-    return budget.best ? budget.best->distance(meanOf(candidate.views, budget.best->value))
-                       : candidate.milliseconds;
-}
-
-double costOf(const Candidate& candidate) {
-    return std::isnan(candidate.milliseconds) ? candidate.glanceMilliseconds
-                                              : candidate.milliseconds;
-}
-
 Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress) {
     for (const Measure& measure : measures()) {
@@ -477,24 +445,6 @@ Choice choose(const SweepStudy& study, const Budget& budget, const Folders& fold
                           truthCost(study.sizes.front(), study.match.rays),
                       plan.hours);
     return Choosing(study, budget, folders, plan, driver, progress).run();
-}
-
-std::string chosenFrom(const Sweep& sweep, const Budget& budget) {
-    std::map<std::string, Candidate> all;
-    std::size_t most = 0;
-    for (const SweepRow& row : atTypicalSpeed(sweep.rows)) {
-        Candidate& candidate = all[row.configuration];
-        candidate.milliseconds += row.total.median;
-        candidate.views.push_back(resultOf(row.matched, row.litMatched));
-        candidate.views.back().milliseconds = row.total.high;
-        most = std::max(most, candidate.views.size());
-    }
-    std::string best;
-    for (const auto& [name, candidate] : all)
-        if (candidate.views.size() == most && excess(budget, candidate.views).empty() &&
-            (best.empty() || worth(budget, candidate) < worth(budget, all[best])))
-            best = name;
-    return best;
 }
 
 } // namespace obscura
