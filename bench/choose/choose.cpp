@@ -1,10 +1,10 @@
 #include "bench/choose/choose.h"
 
+#include "bench/choose/results.h"
 #include "bench/choose/stages.h"
 #include "bench/measure/machine.h"
 #include "bench/measure/timing.h"
 #include "bench/motion/steadiness.h"
-#include "bench/sweep/summary.h"
 #include "matching/match.h"
 #include "matching/match_files.h"
 #include "matching/truths.h"
@@ -17,6 +17,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 
 namespace obscura {
 
@@ -35,32 +36,10 @@ const std::string& nameOf(const Candidate& candidate) {
     return candidate.configuration.setting.name;
 }
 
-// Time and flicker are not known yet, and within any limit.
-ViewResult resultOf(const PictureError& matched, const PictureError& lit) {
-    ViewResult result;
-    result.rmse = matched.rmse;
-    result.flip = matched.flip;
-    result.litFlip = lit.flip;
-    result.jod = lit.jod;
-    return result;
-}
-
 ViewResult resultOn(MeasuredView& seen, const Configuration& configuration) {
     const ViewErrors errors =
         seen.errorsOf(seen.probe().visibility(settingsAt(configuration, seen.view().radius, true)));
     return resultOf(errors.full, errors.lit);
-}
-
-// Candidate::training. Flicker is not known.
-double promise(const Budget& budget, std::span<const ViewResult> views) {
-    double worst = 0;
-    for (const Measure& measure : measures())
-        if (const auto limit = budget.*measure.limit;
-            limit && measure.value != &ViewResult::flicker)
-            worst = std::max(worst, measure.distance(meanOf(views, measure.value)) /
-                                        std::max(measure.distance(*limit), 1e-9));
-    const Measure& by = budget.best ? *budget.best : measureNamed("rmse");
-    return worst > 0 ? worst : by.distance(meanOf(views, by.value));
 }
 
 class Choosing {
@@ -109,6 +88,7 @@ class Choosing {
     gl::TimingChoice timing_;
     Choice choice_;
     std::map<std::string, std::vector<double>> glances_; // RMSE on each view, by name
+    std::set<std::string> dominated_;                    // names
     int failures_ = 0;                                   // of candidates on held-out views
     double done_ = 0;                                    // in candidates, each rung counting alike
 };
@@ -207,15 +187,18 @@ void Choosing::dropDominated() {
         for (const Candidate& other : choice_.candidates) {
             const double most = budget_.best ? *budget_.milliseconds : candidate.glanceMilliseconds;
             if (candidate.verdict.empty() && other.glanceMilliseconds * glanceFactor <= most &&
-                isBetter(other, candidate))
+                isBetter(other, candidate)) {
+                dominated_.insert(nameOf(candidate));
                 candidate.verdict =
                     fmt::format("{} ({:.3g} ms, RMSE {:.3f}) is preferable at a glance",
                                 nameOf(other), other.glanceMilliseconds, other.glanceRmse);
+            }
         }
 }
 
-// Those that a glance left: first those that may be the answer, then those that are dearer than
-// one that is as far within the limit as those that fell out are over it.
+// First those that may be the answer. Then those that wait until none of these will do: dearer than
+// one that is as far within the limit as those that fell out are over it or, asked for the best,
+// not preferable to one that will after all not do.
 std::pair<Choosing::Candidates, Choosing::Candidates> Choosing::contenders() {
     double enough = std::numeric_limits<double>::infinity();
     for (const Candidate& candidate : choice_.candidates)
@@ -227,6 +210,8 @@ std::pair<Choosing::Candidates, Choosing::Candidates> Choosing::contenders() {
         if (candidate.verdict.empty())
             (candidate.glanceMilliseconds <= enough ? result.first : result.second)
                 .push_back(&candidate);
+        else if (budget_.best && dominated_.contains(nameOf(candidate)))
+            result.second.push_back(&candidate);
     if (result.first.empty())
         result.first = nearestAtAGlance();
     return result;
@@ -411,9 +396,9 @@ Choice Choosing::run() {
     glance();
     timeAll();
     dropDominated();
-    const auto [near, far] = contenders();
+    const auto [near, waiting] = contenders();
     std::vector<std::string> names; // places change as candidates are put into order
-    for (const Candidate* candidate : far)
+    for (const Candidate* candidate : waiting)
         names.push_back(nameOf(*candidate));
     const auto tryOut = [&](const Candidates& some) {
         if (some.empty() || choice_.chosen || failures_ == failuresAllowed)
@@ -441,16 +426,6 @@ Choice Choosing::run() {
 
 } // namespace
 
-double worth(const Budget& budget, const Candidate& candidate) {
-    return budget.best ? budget.best->distance(meanOf(candidate.views, budget.best->value))
-                       : candidate.milliseconds;
-}
-
-double costOf(const Candidate& candidate) {
-    return std::isnan(candidate.milliseconds) ? candidate.glanceMilliseconds
-                                              : candidate.milliseconds;
-}
-
 Choice choose(const SweepStudy& study, const Budget& budget, const Folders& folders,
               const SweepPlan& plan, const gl::Driver& driver, const SweepProgress& progress) {
     for (const Measure& measure : measures()) {
@@ -470,24 +445,6 @@ Choice choose(const SweepStudy& study, const Budget& budget, const Folders& fold
                           truthCost(study.sizes.front(), study.match.rays),
                       plan.hours);
     return Choosing(study, budget, folders, plan, driver, progress).run();
-}
-
-std::string chosenFrom(const Sweep& sweep, const Budget& budget) {
-    std::map<std::string, Candidate> all;
-    std::size_t most = 0;
-    for (const SweepRow& row : atTypicalSpeed(sweep.rows)) {
-        Candidate& candidate = all[row.configuration];
-        candidate.milliseconds += row.total.median;
-        candidate.views.push_back(resultOf(row.matched, row.litMatched));
-        candidate.views.back().milliseconds = row.total.high;
-        most = std::max(most, candidate.views.size());
-    }
-    std::string best;
-    for (const auto& [name, candidate] : all)
-        if (candidate.views.size() == most && excess(budget, candidate.views).empty() &&
-            (best.empty() || worth(budget, candidate) < worth(budget, all[best])))
-            best = name;
-    return best;
 }
 
 } // namespace obscura

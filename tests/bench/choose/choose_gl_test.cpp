@@ -42,7 +42,7 @@ reference = "cosine"
 rays = 32
 radii = [0.2]
 train = ["front"]
-test = ["left", "right", "high"]
+test = ["left", "right"]
 sizes = [[64, 36]]
 frames = 3
 seconds = 0.01
@@ -55,12 +55,9 @@ camera = { position = [-1.1, 0.8, 1.4], target = [0, 0.55, 0], fovDegrees = 38 }
 [scenes.right]
 builtin = "sculpture"
 camera = { position = [1.3, 0.8, 1.2], target = [0, 0.55, 0], fovDegrees = 38 }
-[scenes.high]
-builtin = "sculpture"
-camera = { position = [0.9, 1.5, 1.2], target = [0, 0.55, 0], fovDegrees = 38 }
 [techniques]
 none = { technique = "none" }
-starcraft = { technique = "starcraft", samples = [8, 64], blur = 0 }
+starcraft = { technique = "starcraft", samples = 8, blur = 0 }
 gtao = { technique = "gtao", preset = ["low", "ultra"] }
 )";
 
@@ -70,6 +67,10 @@ class ChooseTest : public testing::Test {
         return choose(study_, budget, {}, {folder_.path(), folder_ / "cache"}, context_.driver(),
                       [](double, double, const std::string&) {});
     }
+    void theBestWithinATime();
+    void whatWasNotPreferableWaits();
+    void triesUntilThreeFail();
+    void whatCameNearestIsMeasured();
     static std::string chosenOf(const Choice& choice) {
         return choice.chosen ? choice.candidates[*choice.chosen].configuration.setting.name : "";
     }
@@ -81,7 +82,7 @@ class ChooseTest : public testing::Test {
 
 // Of what was measured and is within the time none is better; with hardly any time, nothing but no
 // occlusion is left.
-TEST_F(ChooseTest, TheBestWithinATime) {
+void ChooseTest::theBestWithinATime() {
     Budget budget;
     budget.best = &measureNamed("rmse");
     budget.milliseconds = 1e6;
@@ -102,9 +103,24 @@ TEST_F(ChooseTest, TheBestWithinATime) {
     EXPECT_EQ(chosenOf(run(budget)), "none");
 }
 
+// What is not preferable at a glance is tried after all when what seemed so does not do: near the
+// border of the picture all but no occlusion fail.
+void ChooseTest::whatWasNotPreferableWaits() {
+    Budget budget;
+    budget.best = &measureNamed("rmse");
+    budget.milliseconds = 1e6;
+    budget.failures = {"border"};
+    const Choice choice = run(budget);
+    ASSERT_EQ(chosenOf(choice), "none");
+    for (const Candidate& candidate : choice.candidates)
+        if (candidate.rung == Rung::held_out) {
+            EXPECT_THAT(candidate.verdict, testing::StartsWith("border: "));
+        }
+}
+
 // Candidates are measured in the order of their errors on training views, until three have failed;
 // the others are not tried, and only what was tried has results.
-TEST_F(ChooseTest, TriesUntilThreeFail) {
+void ChooseTest::triesUntilThreeFail() {
     Budget budget;
     budget.flip = 1e-6; // what nothing meets, and a glance does not look at
     const Choice choice = run(budget);
@@ -113,7 +129,7 @@ TEST_F(ChooseTest, TriesUntilThreeFail) {
     int tried = 0;
     for (const Candidate& candidate : choice.candidates) {
         EXPECT_NE(candidate.verdict, "");
-        EXPECT_EQ(candidate.views.size(), candidate.rung == Rung::held_out ? 3u : 0u);
+        EXPECT_EQ(candidate.views.size(), candidate.rung == Rung::held_out ? 2u : 0u);
         EXPECT_EQ(std::isnan(candidate.milliseconds), candidate.views.empty());
         if (std::isnan(candidate.training))
             continue; // left out at a glance
@@ -128,7 +144,7 @@ TEST_F(ChooseTest, TriesUntilThreeFail) {
 
 // Far from any limit at a glance, what is nearest is measured all the same, so that it can be said
 // how near it is.
-TEST_F(ChooseTest, WhatCameNearestIsMeasured) {
+void ChooseTest::whatCameNearestIsMeasured() {
     Budget budget;
     budget.rmse = 1e-4;
     const Choice choice = run(budget);
@@ -137,6 +153,14 @@ TEST_F(ChooseTest, WhatCameNearestIsMeasured) {
         std::count_if(choice.candidates.begin(), choice.candidates.end(),
                       [](const Candidate& candidate) { return candidate.rung == Rung::held_out; });
     EXPECT_EQ(measured, 3);
+}
+
+// One test, for what was fitted once is not fitted again.
+TEST_F(ChooseTest, Races) {
+    theBestWithinATime();
+    whatWasNotPreferableWaits();
+    triesUntilThreeFail();
+    whatCameNearestIsMeasured();
 }
 
 TEST_F(ChooseTest, ALimitOnTheLitImageNeedsLight) {
