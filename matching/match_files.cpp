@@ -103,6 +103,8 @@ std::string matchedFragment(const MatchStudy& study, const MatchResult& result) 
             text += fmt::format("# {}\n", technique.note);
         text += fmt::format("[techniques.{}]\ntechnique = {}\n", keyOf(technique.setting.name),
                             json(technique.setting.technique).dump());
+        if (technique.setting.preset)
+            text += fmt::format("preset = {}\n", json(technique.setting.preset->name).dump());
         for (const Setting& given : technique.setting.settings)
             text += fmt::format("{} = {}\n", given.name, given.value);
         for (const auto& [name, value] : technique.fitted)
