@@ -5,6 +5,7 @@
 #include "bench/measure/machine.h"
 #include "bench/measure/timing.h"
 #include "bench/motion/steadiness.h"
+#include "bench/sweep/summary.h"
 #include "matching/match.h"
 #include "matching/match_files.h"
 #include "matching/truths.h"
@@ -445,6 +446,34 @@ Choice choose(const SweepStudy& study, const Budget& budget, const Folders& fold
                           truthCost(study.sizes.front(), study.match.rays),
                       plan.hours);
     return Choosing(study, budget, folders, plan, driver, progress).run();
+}
+
+double worth(const Budget& budget, const Candidate& candidate) {
+    return budget.best ? budget.best->distance(meanOf(candidate.views, budget.best->value))
+                       : candidate.milliseconds;
+}
+
+double costOf(const Candidate& candidate) {
+    return std::isnan(candidate.milliseconds) ? candidate.glanceMilliseconds
+                                              : candidate.milliseconds;
+}
+
+std::string chosenFrom(const Sweep& sweep, const Budget& budget) {
+    std::map<std::string, Candidate> all;
+    std::size_t most = 0;
+    for (const SweepRow& row : atTypicalSpeed(sweep.rows)) {
+        Candidate& candidate = all[row.configuration];
+        candidate.milliseconds += row.total.median;
+        candidate.views.push_back(resultOf(row.matched, row.litMatched));
+        candidate.views.back().milliseconds = row.total.high;
+        most = std::max(most, candidate.views.size());
+    }
+    std::string best;
+    for (const auto& [name, candidate] : all)
+        if (candidate.views.size() == most && excess(budget, candidate.views).empty() &&
+            (best.empty() || worth(budget, candidate) < worth(budget, all[best])))
+            best = name;
+    return best;
 }
 
 } // namespace obscura
