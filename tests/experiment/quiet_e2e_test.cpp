@@ -122,7 +122,7 @@ class QuietTest : public testing::TestWithParam<fs::path> {
         Study study = openStudy(protocol, stimuli);
         study.protocol.before.clear(); // only trials are listened to
         test::Receiver receiver(SOCK_STREAM);
-        Display display(
+        StimulusDisplay display(
             {{"quiet", 1, std::nullopt}, study.protocol.trial.grey, true, receiver.url()},
             curtain(study));
         test::listenToOpenGl();
@@ -141,7 +141,7 @@ class QuietTest : public testing::TestWithParam<fs::path> {
 
 // What holds up frames is noticed at all, and whose it is.
 TEST_F(QuietTest, DisturbancesAreHeard) {
-    Display display({{"quiet", 1, std::nullopt}}, [](int w, int h) {
+    StimulusDisplay display({{"quiet", 1, std::nullopt}}, [](int w, int h) {
         return Image8{w, h, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(w * h) * 3, 128)};
     });
     test::listenToOpenGl();
