@@ -68,7 +68,6 @@ class ChooseTest : public testing::Test {
                       [](double, double, const std::string&) {});
     }
     void theBestWithinATime();
-    void whatWasNotPreferableWaits();
     void triesUntilThreeFail();
     void whatCameNearestIsMeasured();
     static std::string chosenOf(const Choice& choice) {
@@ -101,21 +100,6 @@ void ChooseTest::theBestWithinATime() {
     }
     budget.milliseconds = 1e-6;
     EXPECT_EQ(chosenOf(run(budget)), "none");
-}
-
-// What is not preferable at a glance is tried after all when what seemed so does not do: near the
-// border of the picture all but no occlusion fail.
-void ChooseTest::whatWasNotPreferableWaits() {
-    Budget budget;
-    budget.best = &measureNamed("rmse");
-    budget.milliseconds = 1e6;
-    budget.failures = {"border"};
-    const Choice choice = run(budget);
-    ASSERT_EQ(chosenOf(choice), "none");
-    for (const Candidate& candidate : choice.candidates)
-        if (candidate.rung == Rung::held_out) {
-            EXPECT_THAT(candidate.verdict, testing::StartsWith("border: "));
-        }
 }
 
 // Candidates are measured in the order of their errors on training views, until three have failed;
@@ -157,8 +141,10 @@ void ChooseTest::whatCameNearestIsMeasured() {
 
 // One test, for what was fitted once is not fitted again.
 TEST_F(ChooseTest, Races) {
+#ifdef OBSCURA_SANITIZED
+    GTEST_SKIP() << "half a minute of llvmpipe; the tests of sweeps and matches run the same code";
+#endif
     theBestWithinATime();
-    whatWasNotPreferableWaits();
     triesUntilThreeFail();
     whatCameNearestIsMeasured();
 }

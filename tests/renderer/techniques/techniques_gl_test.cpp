@@ -65,22 +65,6 @@ void switchOnFor(Settings& settings, std::string_view name) {
     }
 }
 
-// llvmpipe once spent minutes on one triangle of this view, which it shows edge-on within SAO's
-// guard band (material.glsl); ctest's limit is what fails then.
-TEST_F(GlTest, ATriangleSeenEdgeOnStallsNothing) {
-#ifdef OBSCURA_SANITIZED
-    GTEST_SKIP() << "two minutes of llvmpipe's own code, which sanitizers do not see";
-#endif
-    Camera camera;
-    camera.position = {7.6, 1.2, -0.9};
-    camera.target = {-3.98884546602417, 2.4, 1.2607083941640633};
-    camera.fovDegrees = 60;
-    const Image image =
-        visibilityOf(builtinScene("atrium"), camera, Settings(technique("sao")), 256, 144);
-    EXPECT_GT(meanOf(image), 0.2);
-    EXPECT_LT(meanOf(image), 0.98);
-}
-
 class EveryTechnique : public GlTest, public testing::WithParamInterface<std::string> {
   protected:
     static const Technique& row() { return technique(GetParam()); }
