@@ -1,10 +1,10 @@
 #include "stimuli/times.h"
 
-#include "base/percentile.h"
 #include "base/random.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <numeric>
 #include <thread>
@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-constexpr int leastRounds = 3, mostRounds = 30;
+constexpr int leastRounds = 7, mostRounds = 30;
 constexpr double secondsEach = 0.5; // of a technique on average, in all rounds
 
 struct Runner {
@@ -68,7 +68,7 @@ TechniqueTimes timesOf(const Probe& probe, std::span<const Settings> techniques,
     TechniqueTimes times;
     for (const Runner& runner : runners)
         times.milliseconds.push_back(
-            runner.milliseconds.empty() ? 0 : percentile(runner.milliseconds, 0.5));
+            runner.milliseconds.empty() ? 0 : std::ranges::min(runner.milliseconds));
     times.starcraft = times.milliseconds.back();
     times.milliseconds.pop_back();
     return times;

@@ -10,10 +10,11 @@ namespace obscura {
 
 // How long the passes of techniques take on one view, for one frame without anti-aliasing. All run
 // in turn with an anchor, each round in another random order, so that whatever drifts hits all
-// alike: a glance of seconds, where obscura-bench sweep measures for minutes.
+// alike: a glance of seconds, where obscura-bench sweep measures for minutes. The fastest frame
+// counts, for other work on the machine only adds.
 struct TechniqueTimes {
-    std::vector<double> milliseconds; // medians, in the order asked for; 0 for `none`
-    double starcraft = 0;             // median of the anchor: `starcraft` with 16 samples
+    std::vector<double> milliseconds; // in the order asked for; 0 for `none`
+    double starcraft = 0;             // the anchor: `starcraft` with 16 samples
 };
 
 // `radius` (metres) is that of the anchor.
