@@ -58,7 +58,7 @@ constexpr Parameter gtaoParameters[] = {
     slicesSteps,
     {"falloff", Unit::ratio,
      "outer share of the radius over which occluders fade; 0 ends them sharply", 0.615f, 0, 1,
-     "XeGTAO, tuned against ray tracing", true},
+     "XeGTAO, tuned against ray tracing"},
     {"thinOccluder", Unit::ratio,
      "how much farther occluders count as their distance along the view grows, so that thin things "
      "block less",
