@@ -1,7 +1,8 @@
 #pragma once
 
-#include "metrics/image_error.h"
 #include "protocols/reader/match.h"
+
+#include "metrics/image_error.h"
 
 #include <map>
 #include <string>
