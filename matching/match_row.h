@@ -1,8 +1,7 @@
 #pragma once
 
-#include "protocols/reader/match.h"
-
 #include "metrics/image_error.h"
+#include "protocols/reader/match.h"
 
 #include <map>
 #include <string>

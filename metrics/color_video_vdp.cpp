@@ -1,7 +1,6 @@
 #include "metrics/color_video_vdp.h"
 
 #include "base/parallel.h"
-
 #include "metrics/pyramid.h"
 #include "metrics/sensitivity.h"
 

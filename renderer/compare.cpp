@@ -2,10 +2,10 @@
 
 #include "base/error.h"
 #include "image/canvas.h"
-
 #include "metrics/color_video_vdp.h"
 #include "metrics/flip.h"
 #include "metrics/image_error.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,9 @@
 #include "stimuli/measurements.h"
 
 #include "image/canvas.h"
+#include "metrics/color_video_vdp.h"
 #include "stimuli/times.h"
 
-#include "metrics/color_video_vdp.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 #include "stimuli/warnings.h"
 
+#include "metrics/color_video_vdp.h"
 #include "renderer/probe.h"
 #include "stimuli/measurements.h"
 
-#include "metrics/color_video_vdp.h"
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,9 +1,8 @@
 #pragma once
 
+#include "metrics/image_error.h"
 #include "renderer/probe.h"
 #include "renderer/reference/reference.h"
-
-#include "metrics/image_error.h"
 
 #include <optional>
 #include <vector>

@@ -4,10 +4,10 @@
 
 #include "base/csv.h"
 #include "base/error.h"
-
 #include "metrics/color_video_vdp.h"
 #include "metrics/flip.h"
 #include "metrics/image_error.h"
+
 #include <fmt/format.h>
 #include <sys/resource.h>
 

@@ -1,11 +1,11 @@
 #include "base/csv.h"
 #include "base/files.h"
 #include "base/random.h"
-
 #include "metrics/color_video_vdp.h"
 #include "metrics/pyramid.h"
 #include "metrics/sensitivity.h"
 #include "metrics/sensitivity_table.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

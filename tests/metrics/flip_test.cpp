@@ -1,6 +1,6 @@
 #include "base/random.h"
-
 #include "metrics/flip.h"
+
 #include <glm/glm.hpp>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
 #include "metrics/image_error.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
