@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "base/version.h"
 #include "image/canvas.h"
+#include "matching/anchor.h"
 #include "protocols/reader/design.h"
 #include "stimuli/boost.h"
 #include "stimuli/contact_sheet.h"

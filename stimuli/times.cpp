@@ -1,13 +1,10 @@
 #include "stimuli/times.h"
 
 #include "base/random.h"
-
-#include <fmt/format.h>
+#include "matching/anchor.h"
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
-#include <thread>
 
 namespace obscura {
 
@@ -29,20 +26,12 @@ double run(const Probe& probe, const Runner& runner, gl::Timer& timer) {
     return 1e3 * timer.pieces().front();
 }
 
-Settings anchorOf(double radius) {
-    Settings settings(technique("starcraft"));
-    settings.set("radius", radius);
-    settings.set("samples", 16);
-    settings.set("blur", 1);
-    return settings;
-}
-
 } // namespace
 
 TechniqueTimes timesOf(const Probe& probe, std::span<const Settings> techniques, double radius,
                        gl::Timing timing, std::uint64_t seed) {
     std::vector<Settings> all(techniques.begin(), techniques.end());
-    all.push_back(anchorOf(radius));
+    all.push_back(starcraftAnchor(radius));
     std::vector<Runner> runners;
     for (const Settings& settings : all)
         runners.push_back({settings, probe.passesFor(settings), {}});
@@ -72,15 +61,6 @@ TechniqueTimes timesOf(const Probe& probe, std::span<const Settings> techniques,
     times.starcraft = times.milliseconds.back();
     times.milliseconds.pop_back();
     return times;
-}
-
-std::string processorName() {
-    std::string model = "unknown";
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; model == "unknown" && std::getline(file, line);)
-        if (line.starts_with("model name") && line.find(": ") != line.npos)
-            model = line.substr(line.find(": ") + 2);
-    return fmt::format("{} ({} cores)", model, std::thread::hardware_concurrency());
 }
 
 } // namespace obscura

@@ -21,7 +21,4 @@ struct TechniqueTimes {
 TechniqueTimes timesOf(const Probe& probe, std::span<const Settings> techniques, double radius,
                        gl::Timing timing, std::uint64_t seed);
 
-// "Intel(R) Xeon(R) ... (2 cores)"
-std::string processorName();
-
 } // namespace obscura

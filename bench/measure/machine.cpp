@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 #include "base/version.h"
+#include "matching/anchor.h"
 #include "matching/match.h"
 #include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
@@ -13,7 +14,6 @@
 #include <ctime>
 #include <fstream>
 #include <memory>
-#include <thread>
 
 namespace obscura {
 
@@ -63,9 +63,7 @@ SweepMachine machineOf(const gl::Driver& driver, const gl::TimingChoice& timing,
     machine.vendor = driver.vendor;
     machine.renderer = driver.renderer;
     machine.glVersion = driver.version;
-    const auto models = processorInfo("model name");
-    machine.processor = fmt::format("{} ({} cores)", models.empty() ? "unknown" : models.front(),
-                                    std::thread::hardware_concurrency());
+    machine.processor = processorName();
     machine.clocks = clocksOf(driver);
     machine.method = timing.reason;
     machine.program = programName();

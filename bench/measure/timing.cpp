@@ -207,14 +207,6 @@ Milliseconds summaryOf(std::vector<double> milliseconds) {
             percentile(milliseconds, 0.95)};
 }
 
-Settings starcraftAnchor(double radius) {
-    Settings settings(technique("starcraft"));
-    settings.set("radius", radius);
-    settings.set("samples", 16);
-    settings.set("blur", 1);
-    return settings;
-}
-
 std::vector<TechniqueTime> timeTechniques(const Probe& probe, std::span<const Settings> techniques,
                                           double radius, const TimingPlan& plan,
                                           const TimingProgress& progress) {

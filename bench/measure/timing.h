@@ -2,6 +2,7 @@
 
 #include "bench/sweep/row.h"
 #include "gl/timer.h"
+#include "matching/anchor.h"
 #include "renderer/probe.h"
 
 #include <functional>
@@ -52,9 +53,5 @@ double guardShare(const Settings& settings, int width, int height);
 // Median and percentiles of numbers in any order; 0 without any number. Percentiles are
 // interpolated between ranks (R's type 7).
 Milliseconds summaryOf(std::vector<double> milliseconds);
-
-// The settings of `starcraft` with 16 samples and its blur for this radius, to which all times are
-// compared.
-Settings starcraftAnchor(double radius);
 
 } // namespace obscura
