@@ -27,6 +27,12 @@ double kept(double centre, double factor) {
 
 } // namespace
 
+const std::array<std::string, 6>& layoutNames() {
+    static const std::array<std::string, 6> names{"single", "split",   "side-by-side",
+                                                  "grid",   "flicker", "difference"};
+    return names;
+}
+
 int panesOf(Layout layout) {
     if (layout == Layout::single)
         return 1;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,7 +15,8 @@ namespace obscura {
 // the second right of it, in one place; `flicker` shows one of two; `difference` how they differ.
 enum class Layout { single, split, sideBySide, grid, flicker, difference };
 
-int panesOf(Layout layout); // 1, 2 or 4: how many are drawn
+const std::array<std::string, 6>& layoutNames(); // "single", "split", "side-by-side", ...
+int panesOf(Layout layout);                      // 1, 2 or 4: how many are drawn
 
 struct Box {
     double x = 0, y = 0, width = 0, height = 0;
