@@ -35,16 +35,12 @@ std::string listOf(const std::vector<View>& views, const MatchStudy& study) {
 }
 
 std::string tableOf(const View& view, const MatchStudy& study) {
-    const Camera& camera = view.camera;
     std::string text = format("\n[scenes.{}]\n{} = {}\nradius = {}\n", quoted(keyOf(view, study)),
                               view.file.empty() ? "builtin" : "file",
                               quoted(view.file.empty() ? view.builtin : view.file), view.radius);
     if (view.exposure != 0)
         text += format("exposure = {}\n", view.exposure);
-    text += format("camera = {{ position = {}, target = {}, up = {}, fovDegrees = {}",
-                   triple(camera.position), triple(camera.target), triple(camera.up),
-                   camera.fovDegrees);
-    return text + (camera.near > 0 ? format(", near = {} }}\n", camera.near) : " }\n");
+    return text + format("camera = {}\n", toToml(view.camera));
 }
 
 std::string tableOf(const Level& light, const std::string& folder) {
