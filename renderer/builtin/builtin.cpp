@@ -46,13 +46,39 @@ void addTexture(Sha256& hash, const Texture& texture) {
     addBytes(hash, pixels);
 }
 
+// Of what few scenes have, nothing is hashed where it is as it is without: their hashes stay.
+void addVertices(Sha256& hash, const std::vector<Vertex>& vertices) {
+    using Plain = std::array<float, 12>; // position, normal, tangent, uv
+    using Rest = std::array<float, 6>;   // uv1, colour
+    static_assert(sizeof(Vertex) == sizeof(Plain) + sizeof(Rest), "vertices are hashed whole");
+    std::vector<Plain> plain(vertices.size());
+    std::vector<Rest> rest(vertices.size());
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const auto* floats = reinterpret_cast<const float*>(&vertices[i]);
+        std::copy_n(floats, plain[i].size(), plain[i].begin());
+        std::copy_n(floats + plain[i].size(), rest[i].size(), rest[i].begin());
+    }
+    addBytes(hash, plain);
+    if (std::any_of(rest.begin(), rest.end(),
+                    [](const Rest& each) { return each != Rest{0, 0, 1, 1, 1, 1}; }))
+        addBytes(hash, rest);
+}
+
+void addLight(Sha256& hash, const PointLight& light) {
+    const auto& [kind, position, direction, intensity, range, innerCosine, outerCosine] = light;
+    hash.add(fmt::format("light {}", static_cast<int>(kind)));
+    for (const glm::vec3& v : {position, direction, intensity})
+        hash.add(fmt::format(" {:a} {:a} {:a}", v.x, v.y, v.z));
+    hash.add(fmt::format(" {:a} {:a} {:a}\n", range, innerCosine, outerCosine));
+}
+
 } // namespace
 
 std::string contentSha256(const Scene& scene) {
-    static_assert(sizeof(Vertex) == 12 * sizeof(float), "vertices are hashed as they lie");
-    const auto& [vertices, indices, meshes, materials, textures, sha256, warnings] = scene;
+    const auto& [vertices, indices, meshes, materials, textures, cameras, lights, sha256,
+                 warnings] = scene;
     Sha256 hash;
-    addBytes(hash, vertices);
+    addVertices(hash, vertices);
     addBytes(hash, indices);
     for (const Mesh& mesh : meshes)
         addMesh(hash, mesh);
@@ -60,6 +86,8 @@ std::string contentSha256(const Scene& scene) {
         addMaterial(hash, material);
     for (const Texture& texture : textures)
         addTexture(hash, texture);
+    for (const PointLight& light : lights)
+        addLight(hash, light);
     return hash.hex();
 }
 

@@ -17,7 +17,7 @@ std::span<const std::string> builtinSceneNames();
 Scene builtinScene(std::string_view name);
 
 // SHA-256 of all of a scene that decides pixels: whatever code made it, equal scenes have equal
-// hashes. Names of materials are no part of it.
+// hashes. Names of materials and the scene's cameras are no part of it.
 std::string contentSha256(const Scene& scene);
 
 } // namespace obscura

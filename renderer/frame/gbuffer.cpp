@@ -78,7 +78,7 @@ Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bound
 
 GpuScene::GpuScene(const Scene& scene)
     : bounds_(scene.bounds()), meshes_(scene.meshes), materials_(scene.materials),
-      geometry_(bytesOf(scene.vertices), std::array{3, 3, 4, 2}, scene.indices),
+      geometry_(bytesOf(scene.vertices), std::array{3, 3, 4, 2, 2, 4}, scene.indices),
       white_(gl::constantTexture({1, 1, 1, 1})) {
     for (const Texture& texture : scene.textures)
         textures_.push_back(gl::imageTexture(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "image/image.h"
+#include "protocols/reader/study.h"
 
 #include <glm/glm.hpp>
 
@@ -19,6 +20,8 @@ struct Vertex {
     glm::vec3 normal{0};
     glm::vec4 tangent{0}; // w: sign of the bitangent; all zero where no normal map applies
     glm::vec2 uv{0};
+    glm::vec2 uv1{0};    // the second set, where a material reads it
+    glm::vec4 colour{1}; // linear; multiplied with the material's base colour
 };
 
 // What a texture shows beyond its borders.
@@ -52,6 +55,24 @@ struct Mesh {
     int material = 0;
 };
 
+// A camera that the file brings. Its target is one metre ahead.
+struct NamedCamera {
+    std::string name;
+    Camera camera;
+};
+
+// A light that the file brings (KHR_lights_punctual), in world space.
+struct PointLight {
+    enum class Kind { directional, point, spot };
+    Kind kind = Kind::point;
+    glm::vec3 position{0};
+    glm::vec3 direction{0, 0, -1}; // unit, the way the light goes
+    glm::vec3 intensity{1};        // linear: lux of a directional light, candela of the others
+    float range = 0;               // metres beyond which it is dark; 0: none
+    float innerCosine = 1;         // of a spot: full within this angle from its direction,
+    float outerCosine = 0;         // dark beyond this one
+};
+
 struct Bounds {
     glm::vec3 low{0}, high{0};
 };
@@ -62,6 +83,8 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Material> materials;
     std::vector<Texture> textures;
+    std::vector<NamedCamera> cameras;  // perspective ones, in the order of the scene's nodes
+    std::vector<PointLight> lights;    // in the order of the scene's nodes
     std::string sha256;                // of every file read; when built in, of all it consists of
     std::vector<std::string> warnings; // what the file uses and we do not show
 

@@ -2,6 +2,8 @@ layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 tangent;
 layout(location = 3) in vec2 uv;
+layout(location = 4) in vec2 uv1;
+layout(location = 5) in vec4 colour;
 
 uniform mat4 clipFromWorld;
 invariant gl_Position;

@@ -214,6 +214,11 @@ TEST(ContentHash, DiffersWithEverything) {
     change([](Scene& s) { s.vertices[1].normal.y = 1; });
     change([](Scene& s) { s.vertices[1].tangent.w = -1; });
     change([](Scene& s) { s.vertices[0].uv.y = 1; });
+    change([](Scene& s) { s.vertices[0].uv1.y = 1; });
+    change([](Scene& s) { s.vertices[2].colour.a = 0.5F; });
+    change([](Scene& s) { s.lights.resize(1); });
+    change([](Scene& s) { s.lights.resize(2); });
+    change([](Scene& s) { s.lights.push_back({.intensity = {1, 1, 2}}); });
     change([](Scene& s) { s.indices[2] = 1; });
     change([](Scene& s) { s.meshes[0].material = 1; });
     change([](Scene& s) { s.meshes[0].indexCount = 0; });
