@@ -5,8 +5,8 @@
 #include "protocols/reader/protocol.h"
 #include "protocols/reader/sweep.h"
 #include "protocols/reader/toml_insert.h"
-
 #include "viewer/technique_words.h"
+
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -22,62 +22,12 @@ namespace {
 
 using fmt::format;
 
-double toDecimals(double value, int decimals) {
-    // By way of its text, for 0.1 * 3 is not what a person writes.
-    return decimals <= 0 ? std::round(value * std::pow(10, decimals)) * std::pow(10, -decimals)
-                         : std::stod(format("{:.{}f}", value, decimals));
-}
-
-int digitsBefore(double value) { return static_cast<int>(std::floor(std::log10(value))) + 1; }
-
-double toDigits(double value, int digits) {
-    return value == 0 ? 0 : toDecimals(value, digits - digitsBefore(std::abs(value)));
-}
-
-// Beneath a folder relative to it, else absolute: what is opened does not depend on where a program
-// is started.
-std::string seenFrom(const fs::path& folder, const fs::path& file) {
-    const fs::path whole = fs::absolute(file).lexically_normal(),
-                   relative = whole.lexically_relative(fs::absolute(folder).lexically_normal());
-    return relative.empty() || *relative.begin() == ".." ? whole.string() : relative.string();
-}
-
-// The level as a study in `folder` names its environment.
-Level levelIn(const fs::path& folder, Level level) {
-    if (!level.environment.empty())
-        level.environment = seenFrom(folder, level.environment);
-    return level;
-}
-
-// A name that none of `taken` has: "gtao", "gtao-2", ...
-std::string newName(const std::string& wish, const std::vector<std::string>& taken) {
-    std::string name = wish;
-    for (int i = 2; std::find(taken.begin(), taken.end(), name) != taken.end(); ++i)
-        name = format("{}-{}", wish, i);
-    return name;
-}
-
 template <typename T>
 std::vector<std::string> namesOf(const std::vector<T>& items) {
     std::vector<std::string> names;
     for (const T& item : items)
         names.push_back(item.name);
     return names;
-}
-
-// "sponza-camera-1": the scene, and what its camera is called.
-std::string sceneName(const View& view) {
-    const std::string scene =
-        slug(view.file.empty() ? view.builtin : fs::path(view.file).stem().string());
-    const std::string camera = slug(view.name);
-    if (scene.empty() || camera.starts_with(scene))
-        return camera.empty() ? "scene" : camera;
-    return camera.empty() ? scene : scene + "-" + camera;
-}
-
-std::string levelName(const Level& level) {
-    const std::string name = slug(level.name);
-    return name.empty() ? "light" : name;
 }
 
 void expectPair(const Seen& seen) {
@@ -102,10 +52,6 @@ TomlFields conditionFields(const Condition& condition) {
             {"scene", tomlText(condition.view)},
             {"level", tomlText(condition.level)},
             {"pair", tomlList({condition.roles[0].technique, condition.roles[1].technique})}};
-}
-
-TomlFields techniqueFields(const TechniqueSetting& setting) {
-    return fieldsOf(setting, flagsOf(setting));
 }
 
 // What a pair needs of a protocol, and what it must get for it.
@@ -215,22 +161,6 @@ std::vector<std::string> notesOf(const Seen& seen, const Protocol& protocol, con
     return notes;
 }
 
-View roundedOnce(View view) {
-    const Vec3 p = view.camera.position, t = view.camera.target;
-    const double distance = std::hypot(t[0] - p[0], t[1] - p[1], t[2] - p[2]);
-    const int decimals = distance > 0 ? 6 - digitsBefore(distance) : 6;
-    for (std::size_t i = 0; i < 3; ++i) {
-        view.camera.position[i] = toDecimals(p[i], decimals);
-        view.camera.target[i] = toDecimals(t[i], decimals);
-        view.camera.up[i] = toDecimals(view.camera.up[i], 6);
-    }
-    view.camera.fovDegrees = toDigits(view.camera.fovDegrees, 5);
-    view.camera.near = toDigits(view.camera.near, 2);
-    view.radius = toDigits(view.radius, 4);
-    view.exposure = toDecimals(view.exposure, 3);
-    return view;
-}
-
 // What is new in a protocol that only has this pair.
 constexpr const char* protocolHead =
     R"(# Begun in obscura-view. What is on the screen there was taken over; the rest is a beginning, and yours to change:
@@ -273,12 +203,6 @@ std::string normalsLine(Normals normals) {
                         tomlText(normalsNames()[static_cast<std::size_t>(normals)]));
 }
 
-// Names of studies are lower-case letters, digits and hyphens.
-std::string studyName(const fs::path& file) {
-    const std::string name = slug(file.stem().string());
-    return name.empty() ? "study" : name;
-}
-
 // Puts a text in the place of the one that was read, if it still is there. A link stays a link.
 void replace(const fs::path& file, const std::string& read, const std::string& text) {
     const fs::path real = fs::canonical(file);
@@ -298,29 +222,6 @@ void writeNew(const fs::path& file, const std::string& text) {
 }
 
 } // namespace
-
-std::string inScenesFolder(const fs::path& file, const fs::path& scenesFolder) {
-    return seenFrom(scenesFolder, file);
-}
-
-View rounded(View view) {
-    // Twice, for what is rounded up to a distance of ten has a digit less.
-    return roundedOnce(roundedOnce(std::move(view)));
-}
-
-std::string tablesText(const Seen& seen) {
-    const View view = rounded(seen.view);
-    std::string text = tomlTable("scenes", sceneName(view), fieldsOf(view));
-    const Level level = levelIn(fs::current_path(), seen.level);
-    text += "\n" + tomlTable("levels", levelName(level), fieldsOf(level));
-    std::vector<std::string> names;
-    for (const Settings& pane : seen.panes) {
-        const TechniqueSetting setting = settingOf(pane, seen.view.radius);
-        names.push_back(newName(setting.name, names));
-        text += "\n" + tomlTable("techniques", names.back(), techniqueFields(setting));
-    }
-    return text;
-}
 
 std::string protocolText(const Seen& seen, const std::string& name, const fs::path& folder) {
     expectPair(seen);

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "protocols/reader/study.h"
-#include "renderer/techniques/settings.h"
+#include "viewer/seen.h"
 
 #include <filesystem>
 #include <string>
@@ -12,31 +11,6 @@ namespace obscura {
 // From what is on the screen to studies: pairs for people, cameras for a sweep. Texts are functions
 // of plain values, and are read back by the studies' own readers before any file is touched. A file
 // is written whole or not at all.
-
-// What is on the screen.
-struct Seen {
-    View view;   // its scene as a study names it (inScenesFolder()); `name`: what the camera is
-                 // called, or ""
-    Level level; // `environment`: absolute, or relative to the working folder
-    Normals normals = Normals::smooth;
-    bool textures = true;
-    int width = 1280, height = 720; // of the panes' pictures; those of a new study get as many
-    std::vector<Settings> panes;    // two for a pair: its first member, its second
-};
-
-// A scene's file as a study names it: relative to the scenes folder where it lies in there, else
-// absolute.
-std::string inScenesFolder(const std::filesystem::path& file,
-                           const std::filesystem::path& scenesFolder);
-
-// The view with numbers that a person can read: the camera to a hundred-thousandth of the distance
-// to its target, which there is less than a hundredth of a pixel of 720, the radius to four digits.
-// What was rounded is not changed again.
-View rounded(View view);
-
-// All of it as tables that can be pasted into a protocol: [scenes.X], [levels.Y], and
-// [techniques.Z] for each pane.
-std::string tablesText(const Seen& seen);
 
 // A whole protocol whose only condition is the pair: two seconds of grey between, a choice, a
 // balanced order, English texts. `folder` is where it will lie.
