@@ -2,7 +2,6 @@
 
 #include "gl/timer.h"
 #include "renderer/probe.h"
-
 #include "viewer/picture.h"
 
 #include <memory>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "renderer/scene/scene.h"
-
 #include "viewer/picture.h"
 
 #include <functional>
