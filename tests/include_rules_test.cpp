@@ -45,6 +45,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("renderer", {"renderer/builtin", "renderer/techniques", "renderer/reference", "metrics"});
     room("matching", {"renderer"});
     room("stimuli", {"matching"});
+    room("viewer", {"matching"});
     room("bench", {"matching", "report"});
     room("inference", {"base"});
     room("bench/analysis", {"inference"});
