@@ -157,6 +157,11 @@ void bindTexture(int unit, const Texture& texture) {
     glBindTextureUnit(static_cast<GLuint>(unit), texture.name());
 }
 
+void filterLinearly(const Texture& texture, bool linearly) {
+    setParameter(texture, GL_TEXTURE_MIN_FILTER, linearly ? GL_LINEAR : GL_NEAREST);
+    setParameter(texture, GL_TEXTURE_MAG_FILTER, linearly ? GL_LINEAR : GL_NEAREST);
+}
+
 std::vector<std::byte> readBytes(const Texture& texture, int width, int height, Format format) {
     const Layout layout = layoutOf(format);
     std::vector<std::byte> bytes(static_cast<std::size_t>(width) *
@@ -176,6 +181,13 @@ std::vector<float> readFloats(const Texture& texture, int width, int height, For
     glGetTextureImage(texture.name(), 0, layout.external, GL_FLOAT,
                       static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
     return values;
+}
+
+std::array<float, 4> readTexel(const Texture& texture, int x, int y) {
+    std::array<float, 4> value{};
+    glGetTextureSubImage(texture.name(), 0, x, y, 0, 1, 1, 1, GL_RGBA, GL_FLOAT, sizeof value,
+                         value.data());
+    return value;
 }
 
 void writeFloats(const Texture& texture, int width, int height, std::span<const float> values) {
@@ -225,6 +237,12 @@ void Target::clear(int colour, std::array<float, 4> value) const {
 
 void Target::clearDepth(float value) const {
     glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &value);
+}
+
+void TextureTarget::bind(const Texture& texture, int width, int height) const {
+    glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glViewport(0, 0, width, height);
 }
 
 SlicedTarget::SlicedTarget(int width, int height, Format format, Slices slices,

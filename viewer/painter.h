@@ -26,6 +26,7 @@ struct Truth {
 
 // What a pane is judged by: CPU copies, for another thread to compare.
 struct Comparison {
+    std::string of; // names what is compared, but for the reference's rays
     struct Pane {
         Image visibility;
         Image8 lit;
@@ -40,6 +41,7 @@ struct Comparison {
 
 // What came of it, by pane.
 struct Judgement {
+    std::string of; // the comparison's
     std::vector<Quality> qualities;
     std::vector<Image> jodMaps; // 1 - JOD / 10 at each pixel
 };

@@ -11,6 +11,10 @@ Composite::Composite(const View& view, const Level& level, int width, int height
       sum_(width, height, std::vector<gl::Format>(linear ? 2 : 1, gl::Format::rgba32f), false,
            "sum of frames") {
     restart();
+    set(view, level);
+}
+
+void Composite::set(const View& view, const Level& level) {
     program_.set("exposure", static_cast<float>(std::exp2(view.exposure)));
     program_.set("white", level.curve == Curve::clamp ? 0.0f : static_cast<float>(level.white));
     program_.set("hasDirect", level.sun ? 1 : 0);

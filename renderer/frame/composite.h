@@ -18,6 +18,11 @@ class Composite {
               int guard = 0);
 
     void restart(); // forgets all frames drawn so far
+    // What is drawn from now on is exposed and curved so; nothing is compiled.
+    void set(const View& view, const Level& level);
+
+    // Of all frames: red, green, blue (display-linear) and visibility, as mean() has them for one.
+    const gl::Texture& sum() const { return sum_.colour(0); }
 
     // Red, green, blue (display-linear, 0 ... 1) and visibility; rows from the bottom.
     std::vector<float> mean() const { return mean(0); }
