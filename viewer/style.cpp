@@ -74,6 +74,7 @@ Theme makeTheme(float scale) {
     theme.text = font("DejaVuSans.ttf", 13.5F * scale);
     theme.small = font("DejaVuSans.ttf", 11.5F * scale);
     theme.bold = font("DejaVuSans-Bold.ttf", 13.5F * scale);
+    theme.mono = font("DejaVuSansMono.ttf", 11.5F * scale);
     theme.title = font("DejaVuSans.ttf", 20 * scale);
 
     ImGuiStyle style;

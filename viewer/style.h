@@ -33,7 +33,7 @@ ImU32 faded(ImU32 colour, float share);
 
 struct Theme {
     float scale = 1; // of everything; 1 is 100 %
-    ImFont *text = nullptr, *small = nullptr, *bold = nullptr, *title = nullptr;
+    ImFont *text = nullptr, *small = nullptr, *bold = nullptr, *title = nullptr, *mono = nullptr;
 };
 
 // Sets the current ImGui context's style and fonts (DejaVu Sans) for a scale. An Error where the

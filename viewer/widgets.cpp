@@ -382,7 +382,11 @@ bool button(Ui& ui, const char* label, const std::string& tip, float width, Butt
             bool on) {
     const std::string name = shown(label);
     const ImVec2 text = ImGui::CalcTextSize(name.c_str());
-    const ImVec2 size{width > 0 ? width : text.x + ui.px(22), ui.px(rowHeight + 2)};
+    const float own = text.x + ui.px(22);
+    const ImVec2 size{width < 0   ? ImGui::GetContentRegionAvail().x
+                      : width > 0 ? width
+                                  : own,
+                      ui.px(rowHeight + 2)};
     const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + size.x, low.y + size.y};
     const bool pressed = ImGui::InvisibleButton(label, size);
     ui.note(label);

@@ -65,6 +65,7 @@ bool segments(Ui& ui, const char* label, std::span<const std::string> words, int
 bool choice(Ui& ui, const char* label, std::span<const std::string> words, int& chosen,
             std::span<const std::string> tips = {});
 
+// `width` 0 is that of its text; below 0 it is all there is.
 enum class ButtonKind { plain, primary, quiet };
 bool button(Ui& ui, const char* label, const std::string& tip = {}, float width = 0,
             ButtonKind kind = ButtonKind::plain, bool on = false);

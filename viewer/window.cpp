@@ -206,6 +206,11 @@ bool ViewerWindow::shiftIsDown() const {
            glfwGetKey(window_.get(), GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
+bool ViewerWindow::controlIsDown() const {
+    return glfwGetKey(window_.get(), GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+           glfwGetKey(window_.get(), GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+}
+
 void ViewerWindow::lockCursor(bool locked) {
     if (locked == locked_)
         return;

@@ -64,6 +64,7 @@ class ViewerWindow {
 
     bool isDown(gl::Key key) const;
     bool shiftIsDown() const;
+    bool controlIsDown() const;
     // A locked cursor is hidden, and moves without end.
     void lockCursor(bool locked);
     bool cursorLocked() const { return locked_; }
