@@ -14,18 +14,6 @@ std::string floatNumber(double value) {
     return static_cast<double>(narrow) == value ? fmt::format("{}", narrow) : tomlNumber(value);
 }
 
-TomlFields fieldsOf(const Camera& camera) {
-    TomlFields fields{{"position", tomlTriple(camera.position)},
-                      {"target", tomlTriple(camera.target)}};
-    const Camera usual;
-    if (camera.up != usual.up)
-        fields.emplace_back("up", tomlTriple(camera.up));
-    fields.emplace_back("fovDegrees", tomlNumber(camera.fovDegrees));
-    if (camera.near > 0)
-        fields.emplace_back("near", tomlNumber(camera.near));
-    return fields;
-}
-
 TomlFields fieldsOf(const Ground& ground) {
     return {{"wall", tomlNumber(ground.wall)}, {"colour", tomlTriple(ground.colour)}};
 }
@@ -44,10 +32,21 @@ TomlFields fieldsOf(const Sun& sun) {
 
 } // namespace
 
+std::string toToml(const Camera& camera) {
+    TomlFields fields{{"position", tomlTriple(camera.position)},
+                      {"target", tomlTriple(camera.target)}};
+    if (camera.up != Camera().up)
+        fields.emplace_back("up", tomlTriple(camera.up));
+    fields.emplace_back("fovDegrees", tomlNumber(camera.fovDegrees));
+    if (camera.near > 0)
+        fields.emplace_back("near", tomlNumber(camera.near));
+    return tomlInline(fields);
+}
+
 TomlFields fieldsOf(const View& view) {
     TomlFields fields{view.file.empty() ? std::pair{std::string("builtin"), tomlText(view.builtin)}
                                         : std::pair{std::string("file"), tomlText(view.file)},
-                      {"camera", tomlInline(fieldsOf(view.camera))}};
+                      {"camera", toToml(view.camera)}};
     if (view.radius > 0)
         fields.emplace_back("radius", tomlNumber(view.radius));
     if (view.exposure != 0)

@@ -17,6 +17,8 @@ namespace obscura {
 // them. What has its default is left out.
 using TomlFields = std::vector<std::pair<std::string, std::string>>;
 
+// On one line: what a study has behind "camera =".
+std::string toToml(const Camera& camera);
 TomlFields fieldsOf(const View& view); // without its radius where that is 0: a sweep has `radii`
 TomlFields fieldsOf(const Level& level);
 // Numbers are the shortest that read back as the same float, for a technique has floats. What is
