@@ -200,6 +200,7 @@ const std::map<std::string, Rooms> keepers = {
     {"epoxy/", {"gl"}},
     {"GLFW/", {"gl", "viewer"}},
     {"imgui", {"viewer"}},
+    {"backends/imgui", {"viewer"}},
     {"OpenImageIO/", {"image"}},
     {"pango/", {"image", "experiment"}},
     {"tiny_gltf", {"renderer/scene"}},

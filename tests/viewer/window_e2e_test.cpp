@@ -185,10 +185,10 @@ TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
     // Pixels are enlarged under the cursor, and probed.
     point("pictures", 0.4, 0.6);
     await("the probe", [&] { return viewer->settled() && viewer->probed().has_value(); });
-    fingers->press(gl::Key(341)); // left Control
+    fingers->press(gl::Key::leftControl);
     fingers->turnWheel(3);
     await("enlarged pixels", [&] { return viewer->state().magnification.factor > 2; });
-    fingers->release(gl::Key(341));
+    fingers->release(gl::Key::leftControl);
     tap('0');
     EXPECT_EQ(viewer->state().magnification.factor, 1);
 
