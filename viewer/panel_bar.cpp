@@ -13,8 +13,6 @@ namespace obscura {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 // Pictures of the layouts: what they do to a picture with two halves.
 void drawLayout(Ui& ui, Layout layout, const ImVec2& centre, ImU32 colour) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -165,12 +163,6 @@ void rightAligned(float& right, float middle, const std::string& text, ImU32 col
 } // namespace
 
 std::string letterOf(int pane) { return std::string(1, static_cast<char>('A' + pane)); }
-
-std::string nameOf(const SceneChoice& scene) {
-    if (!scene.builtin.empty())
-        return scene.builtin;
-    return scene.file.empty() ? "No scene" : fs::path(scene.file).filename().string();
-}
 
 void barPanel(Moment& moment, const Box& place) {
     Ui& ui = moment.ui;

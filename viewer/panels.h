@@ -1,5 +1,6 @@
 #pragma once
 
+#include "viewer/loader.h"
 #include "viewer/state.h"
 #include "viewer/test_run.h"
 #include "viewer/widgets.h"
@@ -96,7 +97,5 @@ struct Hand {
 Hand picturesPanel(Moment& moment);
 
 std::string letterOf(int pane); // "A"
-// "sponza.gltf", "atrium"
-std::string nameOf(const SceneChoice& scene);
 
 } // namespace obscura
