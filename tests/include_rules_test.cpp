@@ -46,6 +46,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("matching", {"renderer"});
     room("stimuli", {"matching"});
     room("bench", {"matching", "report"});
+    room("viewer", {"matching"});
     room("inference", {"base"});
     room("bench/analysis", {"inference"});
     room("experiment", {"gl", "image", "inference", "protocols"});
