@@ -78,6 +78,14 @@ SceneId Painter::scene() const { return state_->scene; }
 const Subject& Painter::subject() const { return *state_->subject; }
 std::uint64_t Painter::view() const { return state_->view; }
 
+void Painter::forget() {
+    if (!state_->buffers)
+        return;
+    state_->buffers->forget();
+    state_->passes.forgetResults();
+    state_->pictures.clear();
+}
+
 const Truth* Painter::State::truthOf(const std::optional<TruthKind>& kind) const {
     for (const Reference& reference : references)
         if (kind == reference.truth.kind)
@@ -249,6 +257,7 @@ Drawn Painter::State::summary() const {
             pane.ms += pass.ms;
         if (needsReference() && isJudged())
             pane.quality = judgement.qualities[i];
+        pane.tracing = kindOf(panes[i]->settings).has_value();
         if (const Truth* traced = truthOf(kindOf(panes[i]->settings)))
             pane.rays = traced->rays;
         drawn.panes.push_back(std::move(pane));

@@ -78,6 +78,10 @@ class Painter {
     // read, settings that do not go together) is an Error, and nothing of what is kept is lost.
     Drawn draw(const Wanted& wanted, const Progress& progress = {});
 
+    // Draws all of the view anew next time (G-buffer, light, visibility, pictures), so that a time
+    // is that of a whole frame. What is compiled stays, and so does the scene.
+    void forget();
+
     // What the last wish needs references for: the reference's kind if it is wanted, then those of
     // ray-traced panes; each once.
     std::vector<TruthKind> truthsWanted() const;
@@ -92,6 +96,9 @@ class Painter {
     std::optional<Comparison> comparison();
     // What came of the comparison. The next draw() shows it until something changes.
     void take(Judgement judgement);
+
+    // Of a pane of the last wish; 1 channel, rows from the top. Reads back.
+    Image visibility(int pane) const;
 
     // The last wish at a pixel, from the picture's top left corner; null outside of it, or before
     // anything was drawn. Reads single pixels back.

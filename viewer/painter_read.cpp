@@ -12,6 +12,23 @@ Surfaces Painter::surfaces() const {
                       s.wanted.normals);
 }
 
+Image Painter::visibility(int pane) const {
+    const PanePasses::Pane& shown = *state_->panes.at(static_cast<std::size_t>(pane));
+    const int width = state_->wanted.width, height = state_->wanted.height;
+    Image image{width, height, 1, {}};
+    if (shown.settings.technique().passes.empty() && !shown.traced) {
+        image.pixels.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 1);
+        return image;
+    }
+    const std::vector<float> values =
+        gl::readFloats(*shown.visibility, shown.width, shown.height, gl::Format::r32f);
+    for (int y = shown.guard + height - 1; y >= shown.guard; --y) {
+        const auto row = values.begin() + y * shown.width + shown.guard;
+        image.pixels.insert(image.pixels.end(), row, row + width);
+    }
+    return image;
+}
+
 std::optional<Comparison> Painter::comparison() {
     State& s = *state_;
     const Truth* truth = s.panes.empty() || !s.needsReference() ? nullptr : s.reference();

@@ -96,7 +96,8 @@ struct PaneDrawn {
     std::vector<PassDrawn> passes; // as they ran when the technique was last drawn
     double ms = 0;                 // of those passes together
     std::optional<Quality> quality;
-    int rays = 0; // traced a pixel so far, where the pane's technique is the reference itself
+    bool tracing = false; // the technique is the reference itself:
+    int rays = 0;         // a pixel, traced of it so far
 };
 
 struct Drawn {

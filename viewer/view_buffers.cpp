@@ -134,6 +134,11 @@ bool ViewBuffers::drawLight() {
     return true;
 }
 
+void ViewBuffers::forget() {
+    ++view_;
+    litFrom_ = {};
+}
+
 std::array<double, 2> ViewBuffers::depthRange() const {
     const Frame& frame = sight().frame;
     const Bounds& bounds = subject_.scene().bounds();

@@ -41,6 +41,8 @@ class ViewBuffers {
     bool drawPadded(const Wanted& wanted, const Settings& settings);
     bool drawLight();
 
+    void forget(); // all is drawn anew when it is wanted next
+
     const Sight& sight(int guard = 0) const { return sights_.at(guard); } // drawn before
     const LightBuffers& lightBuffers() const { return *light_; }          // drawn before
     const Lighting& lighting() const { return *lighting_; }
