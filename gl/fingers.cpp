@@ -34,7 +34,13 @@ unsigned long symbolOf(Key key) {
         return XK_Down;
     case Key::up:
         return XK_Up;
+    case Key::leftShift:
+        return XK_Shift_L;
+    case Key::leftControl:
+        return XK_Control_L;
     default:
+        if (key >= Key::f1 && key <= Key::f12)
+            return XK_F1 + static_cast<unsigned long>(key) - static_cast<unsigned long>(Key::f1);
         if (key >= Key::keypadZero && key <= Key::keypadNine)
             return XK_KP_0 + static_cast<unsigned long>(key) -
                    static_cast<unsigned long>(Key::keypadZero);

@@ -27,6 +27,7 @@ class Application {
     // Where a widget or picture was drawn last, by its label; nothing where it was not.
     std::optional<Box> where(const std::string& label) const;
     std::shared_ptr<const Drawn> drawn() const { return drawn_; }
+    const std::optional<Probed>& probed() const { return probed_; }
     const std::string& message() const { return message_.text; }
     const TestRun* test() const { return test_.get(); }
     // Whether the newest picture shows all that is wanted, with so many rays where one is traced.

@@ -3,6 +3,7 @@
 #include "viewer/navigation.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,8 +44,11 @@ void Application::takeKeys() {
 }
 
 void Application::escape() {
+    const bool list = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     if (state_.help)
         state_.help = false;
+    else if (list && !browser_.open)
+        ImGui::ClosePopupsOverWindow(nullptr, false);
     else if (browser_.open)
         browser_.open = false;
     else if (window_.cursorLocked())
@@ -70,12 +74,12 @@ void Application::press(const KeyPress& key) {
         flip(state_);
     else if (key.key == gl::Key::tab)
         state_.panels = !state_.panels;
-    else if (key.key == keys::f1 || key.key == letter('H'))
+    else if (key.key == gl::Key::f1 || key.key == letter('H'))
         state_.help = !state_.help;
-    else if (key.key == keys::f12)
+    else if (key.key == gl::Key::f12)
         requests_.screenshot = true;
-    else if (key.key == keys::leftBracket || key.key == keys::rightBracket)
-        stepTechnique(state_, key.key == keys::leftBracket ? -1 : 1);
+    else if (key.key == gl::Key::leftBracket || key.key == gl::Key::rightBracket)
+        stepTechnique(state_, key.key == gl::Key::leftBracket ? -1 : 1);
     else if (key.key == letter('C'))
         cycleViews(state_, key.shift ? -1 : 1);
     else if (key.key == letter('P'))

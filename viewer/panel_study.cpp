@@ -75,9 +75,15 @@ void table(Ui& ui, const std::string& text, bool failed) {
     ImGui::PushStyleColor(ImGuiCol_Text, failed ? colours::danger : colours::text);
     if (failed)
         ImGui::PushTextWrapPos(0);
-    ImGui::BeginChild("##leeds", {0, 0}, false, ImGuiWindowFlags_HorizontalScrollbar);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::EndChild();
+    if (failed)
+        ImGui::TextUnformatted(text.c_str());
+    else {
+        const float lines = static_cast<float>(std::count(text.begin(), text.end(), '\n') + 2);
+        ImGui::BeginChild("##leeds", {0, lines * ImGui::GetTextLineHeightWithSpacing()}, false,
+                          ImGuiWindowFlags_HorizontalScrollbar);
+        ImGui::TextUnformatted(text.c_str());
+        ImGui::EndChild();
+    }
     if (failed)
         ImGui::PopTextWrapPos();
     ImGui::PopStyleColor();

@@ -226,7 +226,9 @@ void tooltip(Ui& ui, const std::string& text) {
     constexpr float delay = 0.45F;
     if (text.empty() || !ImGui::IsItemHovered())
         return;
-    const float hovered = GImGui->HoveredIdTimer > 0 ? GImGui->HoveredIdTimer : delay;
+    const bool counted =
+        GImGui->LastItemData.ID != 0 && GImGui->HoveredId == GImGui->LastItemData.ID;
+    const float hovered = counted ? GImGui->HoveredIdTimer : delay;
     if (hovered < delay) {
         ui.wake(static_cast<double>(delay - hovered) + 0.01);
         return;

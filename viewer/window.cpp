@@ -15,11 +15,6 @@
 
 namespace obscura {
 
-static_assert(static_cast<int>(keys::leftBracket) == GLFW_KEY_LEFT_BRACKET);
-static_assert(static_cast<int>(keys::rightBracket) == GLFW_KEY_RIGHT_BRACKET);
-static_assert(static_cast<int>(keys::f1) == GLFW_KEY_F1);
-static_assert(static_cast<int>(keys::f12) == GLFW_KEY_F12);
-
 namespace {
 
 std::string reason() {

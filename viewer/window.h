@@ -15,11 +15,6 @@ struct GLFWwindow;
 
 namespace obscura {
 
-// Keys that gl::Key has no names for. The values are GLFW's.
-namespace keys {
-constexpr gl::Key leftBracket{91}, rightBracket{93}, f1{290}, f12{301};
-}
-
 struct KeyPress {
     gl::Key key{};
     bool shift = false, control = false;

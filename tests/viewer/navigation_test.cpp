@@ -1,4 +1,5 @@
 #include "viewer/navigation.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 #include "viewer/panes.h"
+
 #include <gtest/gtest.h>
 
 namespace obscura {

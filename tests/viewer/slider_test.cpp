@@ -1,4 +1,5 @@
 #include "viewer/slider.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
