@@ -1,6 +1,8 @@
 #include "base/error.h"
 #include "viewer/application.h"
 #include "viewer/command_line.h"
+#include "viewer/test_command.h"
+#include "viewer/test_command.h"
 
 namespace {
 
@@ -8,7 +10,8 @@ int run(int argc, char** argv) {
     const obscura::Parsed parsed = obscura::parseCommandLine(argc, argv);
     if (!parsed.line)
         return parsed.status;
-    return obscura::runWindow(*parsed.line);
+    return parsed.line->test ? obscura::runTestCommand(*parsed.line)
+                             : obscura::runWindow(*parsed.line);
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "gl/context.h"
-
 #include "viewer/painter.h"
 #include "viewer/test_results.h"
 

@@ -83,6 +83,8 @@ std::string passesCsv(const std::vector<TestRow>& rows) {
 }
 
 std::string leedsTable(const TestPlan& plan, const std::vector<TestRow>& rows) {
+    if (rows.empty())
+        return "Stopped before the first round had ended: no results.\n";
     std::vector<std::vector<std::string>> lines(1, {"Camera"});
     for (const TechniqueSetting& technique : plan.techniques)
         lines[0].push_back(technique.name + " (average FPS)");

@@ -52,7 +52,7 @@ std::string testCsv(const TestPlan& plan, const TestMachine& machine,
 std::string passesCsv(const std::vector<TestRow>& rows);
 
 // Table 1 of the Leeds thesis: for each camera the mean of the rounds' frames per second with each
-// technique, and the average over the cameras.
+// technique, and the average over the cameras. Without rows, a sentence that says so.
 std::string leedsTable(const TestPlan& plan, const std::vector<TestRow>& rows);
 
 } // namespace obscura

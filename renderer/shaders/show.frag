@@ -48,8 +48,8 @@ vec3 colourOf(float share) {
 }
 
 // A technique that has no passes has one texel.
-float visibilityIn(sampler2D buffer, ivec2 pixel) {
-    return texelFetch(buffer, min(pixel, textureSize(buffer, 0) - 1), 0).r;
+float visibilityIn(sampler2D values, ivec2 pixel) {
+    return texelFetch(values, min(pixel, textureSize(values, 0) - 1), 0).r;
 }
 
 vec3 shownAt(ivec2 pixel) {

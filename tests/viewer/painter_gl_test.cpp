@@ -1,6 +1,7 @@
 // What the painter draws, beside what stimuli are made with; and what it does not draw again.
-#include "renderer/builtin/builtin.h"
+#include "base/files.h"
 #include "renderer/render.h"
+#include "tests/renderer/scene/small_gltf.h"
 #include "tests/renderer/techniques/occlusion_fixture.h"
 #include "tests/viewer/room.h"
 #include "viewer/painter.h"
@@ -34,18 +35,28 @@ std::array<int, 3> colourAt(const Image8& image, int x, int y) {
     return {image.pixels[at], image.pixels[at + 1], image.pixels[at + 2]};
 }
 
+std::vector<float> cornersOf(const Scene& scene) {
+    std::vector<float> corners;
+    for (const std::uint32_t index : scene.indices)
+        for (int axis = 0; axis < 3; ++axis)
+            corners.push_back(scene.vertices[index].position[axis]);
+    return corners;
+}
+
 // One by one, by the code that makes stimuli: with a guard band, on every second pixel, and sending
 // light.
 TEST_F(PainterTest, LitPicturesAreThoseOfStimuli) {
-    const Scene scene = builtinScene("sculpture");
+    const std::filesystem::path folder(testing::TempDir());
+    const std::vector<float> corners = cornersOf(room());
+    writeFile(folder / "t.bin", trianglesBuffer(corners));
+    writeFile(folder / "room.gltf", trianglesGltf(corners));
+    const Scene scene = loadScene(folder / "room.gltf");
     painter_.open(7, scene);
     Wanted wanted = wantedOf(7, {settingsOf("starcraft", {{"samples", 16}, {"downscale", 2}}),
-                                 settingsOf("hbao_plus", {{"guardBand", 0.1}}),
-                                 settingsOf("ssdo"), settingsOf("none")});
-    wanted.view.builtin = "sculpture";
+                                 settingsOf("sao", {{"guardBand", 0.1}}), settingsOf("ssdo"),
+                                 settingsOf("none")});
+    wanted.view.file = (folder / "room.gltf").string();
     wanted.view.exposure = 0.3;
-    wanted.view.camera.position = {0.9, 0.9, 1.8};
-    wanted.view.camera.target = {0, 0.4, 0};
     wanted.level.ambient.reset();
     wanted.level.sky = Sky{};
     const Drawn drawn = draw(wanted);
@@ -126,8 +137,7 @@ TEST_F(PainterTest, ShowsBuffersAndProbesThem) {
     wanted.show = Show::occlusion;
     const Image8 grey = imageOf(*draw(wanted).panes[0].picture);
     EXPECT_THAT(colourAt(grey, 80, 45), testing::Each(colourAt(grey, 80, 45)[0]));
-    EXPECT_EQ(colourAt(grey, 3, 88)[0],
-              displayed(painter_.visibility(0)).pixels[88 * 160 + 3]);
+    EXPECT_EQ(colourAt(grey, 3, 88)[0], displayed(painter_.visibility(0)).pixels[88 * 160 + 3]);
 
     const Probed probed = painter_.probe(80, 45).value();
     EXPECT_TRUE(probed.surface);
@@ -143,13 +153,13 @@ TEST_F(PainterTest, ShowsBuffersAndProbesThem) {
 
 TEST_F(PainterTest, WithoutTexturesAllIsWhite) {
     Scene scene = room();
-    scene.materials.front().baseColour = {0.5f, 0.25f, 0, 1};
+    scene.materials.front().baseColour = {0.215861f, 1, 0, 1};
     painter_.open(1, scene);
     Wanted wanted = wantedOf(1, {settingsOf("none")});
     wanted.show = Show::albedo;
     EXPECT_EQ(colourAt(imageOf(*draw(wanted).panes[0].picture), 80, 80),
-              (std::array<int, 3>{188, 137, 0}));
-    EXPECT_NEAR(painter_.probe(80, 80)->albedo.value().r, 0.5, 0.005);
+              (std::array<int, 3>{128, 255, 0}));
+    EXPECT_NEAR(painter_.probe(80, 80)->albedo.value().r, 0.2158, 1e-3);
     wanted.textures = false;
     EXPECT_THAT(colourAt(imageOf(*draw(wanted).panes[0].picture), 80, 80), testing::Each(255));
 }
@@ -168,8 +178,8 @@ TEST_F(PainterTest, ErrorsAndDifferencesHaveTheColoursOfTheirScale) {
     const auto errorWith = [&](float reference) {
         auto image = std::make_shared<Image>(Image{160, 90, 1, {}});
         image->pixels.assign(160 * 90, reference);
-        painter_.take(painter_.view(), {{painter_.truthsWanted()[0], image,
-                                         static_cast<int>(reference * 1000)}});
+        painter_.take(painter_.view(),
+                      {{painter_.truthsWanted()[0], image, static_cast<int>(reference * 1000)}});
         const Drawn drawn = draw(wanted);
         EXPECT_FALSE(drawn.panes[0].waits);
         EXPECT_EQ(colourAt(imageOf(*drawn.difference), 80, 80), colour(1)); // both are open
@@ -239,8 +249,7 @@ TEST_F(PainterTest, ReferencesRefineAndJudge) {
     std::vector<int> counts;
     waitFor([&] {
         const Tracer::Traced traced = tracer.traced();
-        if (!traced.truths.empty() &&
-            (counts.empty() || counts.back() != traced.truths[0].rays))
+        if (!traced.truths.empty() && (counts.empty() || counts.back() != traced.truths[0].rays))
             counts.push_back(traced.truths[0].rays);
         return !counts.empty() && counts.back() == Tracer::mostRays;
     });

@@ -8,10 +8,10 @@ namespace obscura {
 // A box on a floor before a wall: a scene that takes no time to make, and where a view of it is.
 inline Scene room() {
     Scene scene;
-    addQuad(scene, {glm::vec3(-4, 0, 4), glm::vec3(4, 0, 4), glm::vec3(4, 0, -2),
-                    glm::vec3(-4, 0, -2)});
-    addQuad(scene, {glm::vec3(-4, 0, -2), glm::vec3(4, 0, -2), glm::vec3(4, 4, -2),
-                    glm::vec3(-4, 4, -2)});
+    addQuad(scene,
+            {glm::vec3(-4, 0, 4), glm::vec3(4, 0, 4), glm::vec3(4, 0, -2), glm::vec3(-4, 0, -2)});
+    addQuad(scene,
+            {glm::vec3(-4, 0, -2), glm::vec3(4, 0, -2), glm::vec3(4, 4, -2), glm::vec3(-4, 4, -2)});
     addBox(scene, {-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f});
     return scene;
 }

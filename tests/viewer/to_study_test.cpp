@@ -37,7 +37,7 @@ Seen sample() {
     seen.level.sky = Sky{};
     seen.width = 64;
     seen.height = 36;
-    seen.panes = {settingsIn("crytek samples=24", 0.35), settingsIn("gtao high", 0.35)};
+    seen.panes = {settingsIn("crytek samples=16", 0.35), settingsIn("gtao low", 0.35)};
     return seen;
 }
 
@@ -106,7 +106,7 @@ TEST(ToStudy, AWholeProtocolIsReadBack) {
         EXPECT_EQ(protocol.width, 64);
         EXPECT_EQ(protocol.height, 36);
         ASSERT_EQ(protocol.conditions.size(), 1u);
-        EXPECT_EQ(protocol.conditions[0].id, "atrium-camera-1-moderate-crytek24-gtao-high");
+        EXPECT_EQ(protocol.conditions[0].id, "atrium-camera-1-moderate-crytek16-gtao-low");
         expectShows(protocol, protocol.conditions[0].id, seen);
     }
 }
@@ -178,7 +178,7 @@ TEST(ToStudy, NamesThatAreTakenGetNumbers) {
         names.push_back(technique.name);
     EXPECT_THAT(names,
                 ElementsAre("atrium-camera-1", "atrium-camera-1-2", "moderate", "moderate-2",
-                            "crytek24", "gtao-high", "gtao-high-tuned", "gtao-high-tuned-2"));
+                            "crytek16", "gtao-low", "gtao-low-tuned", "gtao-low-tuned-2"));
     expectShows(protocol, third.condition, other);
 }
 
@@ -260,7 +260,7 @@ TEST(ToStudy, TablesCanBePastedIntoAProtocol) {
     const Protocol protocol = parseProtocol(
         "name = \"x\"\nseed = 1\n" + text +
             "[[conditions]]\nid = \"c\"\nscene = \"atrium-camera-1\"\nlevel = \"moderate\"\npair = "
-            "[\"crytek24\", \"gtao-high\"]\n[texts]\ninstructions = \"a\"\nstart = \"a\"\nquestion "
+            "[\"crytek16\", \"gtao-low\"]\n[texts]\ninstructions = \"a\"\nstart = \"a\"\nquestion "
             "= "
             "\"a\"\nfirst = \"a\"\nsecond = \"a\"\nthanks = \"a\"\n",
         "pasted.toml");
