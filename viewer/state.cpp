@@ -19,6 +19,7 @@ const std::vector<std::string>& tabTitles() {
 }
 
 State::State() : level(levelNamed("moderate")) {
+    view.radius = 0.5; // metres, until a scene suggests another
     for (const char* id : {"none", "gtao", "hbao", "starcraft"})
         panes.emplace_back(technique(id));
 }
