@@ -5,9 +5,9 @@
 #include "renderer/scene/gltf_check.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 
 namespace obscura {
@@ -30,14 +30,35 @@ Wrap wrapOf(int mode) {
     }
 }
 
+// Trilinear where the file does not say.
+Minified minifiedOf(int filter) {
+    switch (filter) {
+    case TINYGLTF_TEXTURE_FILTER_NEAREST:
+        return Minified::nearest;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR:
+        return Minified::linear;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_NEAREST:
+        return Minified::nearestMipmapNearest;
+    case TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_NEAREST:
+        return Minified::linearMipmapNearest;
+    case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
+        return Minified::nearestMipmapLinear;
+    default:
+        return Minified::linearMipmapLinear;
+    }
+}
+
 // OpenImageIO looks at contents, but asks a name for the format first.
 std::string extensionOf(std::span<const std::byte> encoded) {
-    const auto begins = [&](std::initializer_list<int> bytes) {
-        return encoded.size() >= bytes.size() &&
-               std::equal(bytes.begin(), bytes.end(), encoded.begin(),
+    const auto has = [&](std::size_t at, std::initializer_list<int> bytes) {
+        return encoded.size() >= at + bytes.size() &&
+               std::equal(bytes.begin(), bytes.end(), encoded.begin() + static_cast<long>(at),
                           [](int a, std::byte b) { return static_cast<std::byte>(a) == b; });
     };
-    return begins({0x89, 'P', 'N', 'G'}) ? ".png" : begins({0xff, 0xd8}) ? ".jpg" : "";
+    return has(0, {0x89, 'P', 'N', 'G'})  ? ".png"
+           : has(0, {0xff, 0xd8})         ? ".jpg"
+           : has(8, {'W', 'E', 'B', 'P'}) ? ".webp"
+                                          : "";
 }
 
 } // namespace
@@ -48,60 +69,125 @@ GltfMaterials::GltfMaterials(const GltfFile& file, const tinygltf::Model& model,
 std::vector<Material> GltfMaterials::materials() {
     std::vector<Material> result;
     for (std::size_t i = 0; i < model_.materials.size(); ++i)
-        result.push_back(convert(model_.materials[i], format("materials[{}]", i)));
+        result.push_back(
+            convert({file_, file_.root().at("materials")[i], format("materials[{}]", i)}));
     return result;
 }
 
-int GltfMaterials::textureOf(int index, int coordinates, bool colour, const std::string& material,
-                             const std::string& at) {
-    if (index < 0)
-        return -1;
-    if (coordinates != coordinates_.back()) {
-        warn_(
-            format("material \"{}\": its texture {} wants texture coordinates {} where its others "
-                   "have {}; it is left out",
-                   material, at, coordinates, coordinates_.back()));
-        return -1;
-    }
-    const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
-    if (texture.source < 0)
-        failGltf(file_.path(), format("textures[{}].source", index),
+int GltfMaterials::textureOf(int index, bool colour) {
+    const GltfObject texture(file_, file_.root().at("textures")[static_cast<std::size_t>(index)],
+                             format("textures[{}]", index));
+    std::optional<int> source = texture.index("source", "images");
+    if (const auto webp = texture.extension("EXT_texture_webp"))
+        source = webp->index("source", "images");
+    if (!source)
+        failGltf(file_.path(), texture.path() + ".source",
                  "expected an image, found none; an extension may hold one that is not supported "
-                 "(KTX2 or WebP): export PNG or JPEG as well");
-    const auto [known, added] = known_.try_emplace({texture.source, texture.sampler, colour},
-                                                   static_cast<int>(known_.size()));
-    return known->second;
+                 "(KTX2): export PNG, JPEG or WebP as well");
+    const int sampler = texture.index("sampler", "samplers").value_or(-1);
+    return known_.try_emplace({*source, sampler, colour}, static_cast<int>(known_.size()))
+        .first->second;
 }
 
-Material GltfMaterials::convert(const tinygltf::Material& from, const std::string& at) {
-    Material to;
-    to.name = from.name;
-    const auto& pbr = from.pbrMetallicRoughness;
-    coordinates_.push_back(pbr.baseColorTexture.index >= 0 ? pbr.baseColorTexture.texCoord
-                           : from.normalTexture.index >= 0 ? from.normalTexture.texCoord
-                                                           : pbr.metallicRoughnessTexture.texCoord);
-    const auto texture = [&](const auto& info, bool colour, const char* key) {
-        return textureOf(info.index, info.texCoord, colour, from.name.empty() ? at : from.name,
-                         key);
+TextureUse GltfMaterials::use(const GltfObject& parent, const char* key, bool colour) {
+    const auto info = parent.object(key);
+    if (!info)
+        return {};
+    const auto index = info->index("index", "textures");
+    if (!index)
+        failGltf(file_.path(), info->path(), "expected \"index\", found none");
+    constexpr double most = 1e6;
+    TextureUse result;
+    int set = info->whole("texCoord", 0, 31, 0);
+    if (const auto transform = info->extension("KHR_texture_transform")) {
+        const auto offset = transform->numbers<2>("offset", -most, most, {0, 0}),
+                   scale = transform->numbers<2>("scale", -most, most, {1, 1});
+        result.offset = {offset[0], offset[1]};
+        result.scale = {scale[0], scale[1]};
+        result.rotation = static_cast<float>(transform->number("rotation", -most, most, 0));
+        set = transform->whole("texCoord", 0, 31, set);
+    }
+    Coordinates& read = coordinates_.back();
+    for (result.set = 0; read[static_cast<std::size_t>(result.set)] != set; ++result.set) {
+        int& free = read[static_cast<std::size_t>(result.set)];
+        if (free < 0) {
+            free = set;
+            break;
+        }
+        if (result.set == 1) {
+            warn_(format("{}: reads texture coordinates {} where other textures of its material "
+                         "read {} and {}; it is left out",
+                         info->path(), set, read[0], read[1]));
+            return {};
+        }
+    }
+    result.texture = textureOf(*index, colour);
+    return result;
+}
+
+// What the surface reflects, by one of glTF's two models.
+void GltfMaterials::readReflectance(const GltfObject& from, Material& to) {
+    const auto colour = [&](const GltfObject& object, const char* key) {
+        const auto factor = object.numbers<4>(key, -1e6, 1e6, {1, 1, 1, 1});
+        return glm::vec4(factor[0], factor[1], factor[2], factor[3]);
     };
-    to.baseColour = glm::vec4(glm::make_vec4(pbr.baseColorFactor.data()));
-    to.baseColourTexture = texture(pbr.baseColorTexture, true, "baseColorTexture");
-    to.metallic = static_cast<float>(pbr.metallicFactor);
-    to.roughness = static_cast<float>(pbr.roughnessFactor);
-    to.metallicRoughnessTexture =
-        texture(pbr.metallicRoughnessTexture, false, "metallicRoughnessTexture");
-    to.normalTexture = texture(from.normalTexture, false, "normalTexture");
-    to.normalScale = static_cast<float>(from.normalTexture.scale);
-    to.doubleSided = from.doubleSided;
-    if (from.alphaMode == "MASK")
-        to.alphaCutoff = std::max(static_cast<float>(from.alphaCutoff), 1e-6f);
-    if (from.alphaMode == "BLEND")
-        warn_(format("material \"{}\" is translucent; it is drawn opaque", from.name));
-    if (from.occlusionTexture.index >= 0)
+    if (const auto glossy = from.extension("KHR_materials_pbrSpecularGlossiness");
+        glossy && !to.unlit) {
+        const auto specular = glossy->numbers<3>("specularFactor", 0, 1, {1, 1, 1});
+        to.baseColour = colour(*glossy, "diffuseFactor");
+        to.baseColourTexture = use(*glossy, "diffuseTexture", true);
+        to.specularGlossiness = {{specular[0], specular[1], specular[2]},
+                                 static_cast<float>(glossy->number("glossinessFactor", 0, 1, 1))};
+        to.metallicRoughnessTexture = use(*glossy, "specularGlossinessTexture", true);
+        return;
+    }
+    to.metallic = 1; // glTF's default
+    const auto pbr = from.object("pbrMetallicRoughness");
+    if (!pbr)
+        return;
+    to.baseColour = colour(*pbr, "baseColorFactor");
+    to.baseColourTexture = use(*pbr, "baseColorTexture", true);
+    to.metallic = static_cast<float>(pbr->number("metallicFactor", 0, 1, 1));
+    to.roughness = static_cast<float>(pbr->number("roughnessFactor", 0, 1, 1));
+    if (!to.unlit)
+        to.metallicRoughnessTexture = use(*pbr, "metallicRoughnessTexture", false);
+}
+
+void GltfMaterials::readEmission(const GltfObject& from, Material& to) {
+    const auto factor = from.numbers<3>("emissiveFactor", 0, 1e6, {0, 0, 0});
+    const auto strong = from.extension("KHR_materials_emissive_strength");
+    to.emission = glm::vec3(factor[0], factor[1], factor[2]) *
+                  static_cast<float>(strong ? strong->number("emissiveStrength", 0, 1e6, 1) : 1);
+    if (to.emits())
+        to.emissionTexture = use(from, "emissiveTexture", true);
+}
+
+void GltfMaterials::warnOfAbsent(const GltfObject& from, const Material& to) const {
+    if (from.text("alphaMode") == "BLEND")
+        warn_(format("material \"{}\" is translucent; it is drawn opaque", to.name));
+    if (from.object("occlusionTexture"))
         warn_("baked occlusion textures are left out: they would stand in for the technique");
-    if (from.emissiveTexture.index >= 0 ||
-        *std::max_element(from.emissiveFactor.begin(), from.emissiveFactor.end()) > 0)
-        warn_(format("material \"{}\" emits light; emission is left out", from.name));
+}
+
+Material GltfMaterials::convert(const GltfObject& from) {
+    Material to;
+    to.name = from.text("name");
+    to.unlit = from.extension("KHR_materials_unlit").has_value();
+    to.doubleSided = from.flag("doubleSided");
+    if (from.text("alphaMode") == "MASK")
+        to.alphaCutoff =
+            std::max(static_cast<float>(from.number("alphaCutoff", 0, 1e6, 0.5)), 1e-6f);
+    coordinates_.push_back({-1, -1});
+    readReflectance(from, to);
+    if (!to.unlit) { // which ignores all but the base colour
+        to.normalTexture = use(from, "normalTexture", false);
+        if (const auto map = from.object("normalTexture"))
+            to.normalScale = static_cast<float>(map->number("scale", -1e6, 1e6, 1));
+        readEmission(from, to);
+    }
+    warnOfAbsent(from, to);
+    int& first = coordinates_.back()[0];
+    first = std::max(first, 0);
     return to;
 }
 
@@ -122,6 +208,7 @@ Texture GltfMaterials::decode(const Key& key) const {
     result.wrapU = wrapOf(from.wrapS);
     result.wrapV = wrapOf(from.wrapT);
     result.nearest = from.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST;
+    result.minified = minifiedOf(from.minFilter);
     return result;
 }
 

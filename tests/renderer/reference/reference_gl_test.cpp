@@ -65,7 +65,7 @@ TEST_F(RaysAndRasteriser, AgreeOnTheHolesOfMaskedMaterials) {
                 texture.image.pixels.push_back(static_cast<std::uint8_t>(value));
     scene.textures.push_back(texture);
     Material masked;
-    masked.baseColourTexture = 0;
+    masked.baseColourTexture.texture = 0;
     masked.baseColour.a = 0.9f;
     masked.alphaCutoff = 0.4f;
     masked.doubleSided = true;
