@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "renderer/scene/gltf_accessor.h"
 #include "renderer/scene/gltf_check.h"
+#include "renderer/scene/gltf_extensions.h"
 #include "renderer/scene/gltf_file.h"
 #include "renderer/scene/gltf_materials.h"
 #include "renderer/scene/gltf_piece.h"
@@ -59,7 +60,8 @@ class Loader {
           materials_(file_, model_, [this](const std::string& message) { warn(message); }) {}
 
     Scene load() {
-        warnOfExtensions();
+        for (const std::string& sentence : extensionsLeftOut(file_.root()))
+            warn(sentence);
         scene_.materials = materials_.materials();
         scene_.textures = materials_.textures();
         if (model_.scenes.empty())
@@ -98,29 +100,6 @@ class Loader {
                             "coordinates are missing or degenerate; the vertex normal stands in",
                             scene_.materials[static_cast<std::size_t>(material)].name, sum.lost,
                             sum.all, sum.first));
-    }
-
-    // Those that the file says it uses, and those that it uses without saying so.
-    void warnOfExtensions() {
-        std::set<std::string> names;
-        for (const nlohmann::json& name :
-             file_.root().value("extensionsUsed", nlohmann::json::array()))
-            names.insert(name.get<std::string>());
-        collectExtensions(file_.root(), names);
-        names.erase(
-            "KHR_mesh_quantization"); // needs nothing but the component types that it allows
-        for (const std::string& name : names)
-            warn(format("extension {} is not supported; it is left out", name));
-    }
-
-    static void collectExtensions(const nlohmann::json& value, std::set<std::string>& names) {
-        for (const auto& [key, item] : value.items()) {
-            if (value.is_object() && key == "extensions" && item.is_object())
-                for (const auto& [name, content] : item.items())
-                    names.insert(name);
-            if (item.is_structured() && key != "extras")
-                collectExtensions(item, names);
-        }
     }
 
     // Nodes -------------------------------------------------------------------------------------

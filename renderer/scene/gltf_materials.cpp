@@ -13,6 +13,7 @@
 namespace obscura {
 
 using fmt::format;
+using nlohmann::json;
 
 namespace {
 
@@ -28,6 +29,24 @@ Wrap wrapOf(int mode) {
     default:
         return Wrap::repeat;
     }
+}
+
+// What an extension adds to an object of a checked file; null where it adds nothing.
+const json* extensionOf(const json& object, const char* name) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end())
+        return nullptr;
+    const auto found = extensions->find(name);
+    return found == extensions->end() ? nullptr : &*found;
+}
+
+// As many numbers as a vector of this kind has.
+template <typename Vec>
+Vec vec(const json& object, const char* key, Vec result) {
+    const auto found = object.find(key);
+    for (int i = 0; found != object.end() && i < Vec::length(); ++i)
+        result[i] = (*found)[static_cast<std::size_t>(i)].template get<float>();
+    return result;
 }
 
 // Trilinear where the file does not say.
@@ -49,7 +68,7 @@ Minified minifiedOf(int filter) {
 }
 
 // OpenImageIO looks at contents, but asks a name for the format first.
-std::string extensionOf(std::span<const std::byte> encoded) {
+std::string formatOf(std::span<const std::byte> encoded) {
     const auto has = [&](std::size_t at, std::initializer_list<int> bytes) {
         return encoded.size() >= at + bytes.size() &&
                std::equal(bytes.begin(), bytes.end(), encoded.begin() + static_cast<long>(at),
@@ -68,121 +87,102 @@ GltfMaterials::GltfMaterials(const GltfFile& file, const tinygltf::Model& model,
 
 std::vector<Material> GltfMaterials::materials() {
     std::vector<Material> result;
-    for (std::size_t i = 0; i < model_.materials.size(); ++i)
-        result.push_back(
-            convert({file_, file_.root().at("materials")[i], format("materials[{}]", i)}));
+    for (const json& material : file_.root().value("materials", json::array()))
+        result.push_back(convert(material));
     return result;
 }
 
 int GltfMaterials::textureOf(int index, bool colour) {
-    const GltfObject texture(file_, file_.root().at("textures")[static_cast<std::size_t>(index)],
-                             format("textures[{}]", index));
-    std::optional<int> source = texture.index("source", "images");
-    if (const auto webp = texture.extension("EXT_texture_webp"))
-        source = webp->index("source", "images");
-    if (!source)
-        failGltf(file_.path(), texture.path() + ".source",
+    const json& texture = file_.root().at("textures")[static_cast<std::size_t>(index)];
+    const json* webp = extensionOf(texture, "EXT_texture_webp");
+    const int source = webp ? webp->at("source").get<int>() : texture.value("source", -1);
+    if (source < 0)
+        failGltf(file_.path(), format("textures[{}].source", index),
                  "expected an image, found none; an extension may hold one that is not supported "
                  "(KTX2): export PNG, JPEG or WebP as well");
-    const int sampler = texture.index("sampler", "samplers").value_or(-1);
-    return known_.try_emplace({*source, sampler, colour}, static_cast<int>(known_.size()))
+    return known_
+        .try_emplace({source, texture.value("sampler", -1), colour},
+                     static_cast<int>(known_.size()))
         .first->second;
 }
 
-TextureUse GltfMaterials::use(const GltfObject& parent, const char* key, bool colour) {
-    const auto info = parent.object(key);
-    if (!info)
+TextureUse GltfMaterials::use(const json& parent, const char* key, bool colour,
+                              const Material& material) {
+    const auto found = parent.find(key);
+    if (found == parent.end())
         return {};
-    const auto index = info->index("index", "textures");
-    if (!index)
-        failGltf(file_.path(), info->path(), "expected \"index\", found none");
-    constexpr double most = 1e6;
     TextureUse result;
-    int set = info->whole("texCoord", 0, 31, 0);
-    if (const auto transform = info->extension("KHR_texture_transform")) {
-        const auto offset = transform->numbers<2>("offset", -most, most, {0, 0}),
-                   scale = transform->numbers<2>("scale", -most, most, {1, 1});
-        result.offset = {offset[0], offset[1]};
-        result.scale = {scale[0], scale[1]};
-        result.rotation = static_cast<float>(transform->number("rotation", -most, most, 0));
-        set = transform->whole("texCoord", 0, 31, set);
+    int set = found->value("texCoord", 0);
+    if (const json* transform = extensionOf(*found, "KHR_texture_transform")) {
+        result.offset = vec(*transform, "offset", glm::vec2(0));
+        result.scale = vec(*transform, "scale", glm::vec2(1));
+        result.rotation = transform->value("rotation", 0.0f);
+        set = transform->value("texCoord", set);
     }
-    Coordinates& read = coordinates_.back();
-    for (result.set = 0; read[static_cast<std::size_t>(result.set)] != set; ++result.set) {
-        int& free = read[static_cast<std::size_t>(result.set)];
-        if (free < 0) {
-            free = set;
-            break;
-        }
-        if (result.set == 1) {
-            warn_(format("{}: reads texture coordinates {} where other textures of its material "
-                         "read {} and {}; it is left out",
-                         info->path(), set, read[0], read[1]));
-            return {};
-        }
+    auto& [first, second] = coordinates_.back();
+    if (first < 0 || first == set) {
+        first = set;
+    } else if (second < 0 || second == set) {
+        second = set;
+        result.set = 1;
+    } else {
+        warn_(format("material \"{}\": its {} wants texture coordinates {} where its others have "
+                     "{} and {}; it is left out",
+                     material.name, key, set, first, second));
+        return {};
     }
-    result.texture = textureOf(*index, colour);
+    result.texture = textureOf(found->at("index").get<int>(), colour);
     return result;
 }
 
 // What the surface reflects, by one of glTF's two models.
-void GltfMaterials::readReflectance(const GltfObject& from, Material& to) {
-    const auto colour = [&](const GltfObject& object, const char* key) {
-        const auto factor = object.numbers<4>(key, -1e6, 1e6, {1, 1, 1, 1});
-        return glm::vec4(factor[0], factor[1], factor[2], factor[3]);
-    };
-    if (const auto glossy = from.extension("KHR_materials_pbrSpecularGlossiness");
+void GltfMaterials::readReflectance(const json& from, Material& to) {
+    if (const json* glossy = extensionOf(from, "KHR_materials_pbrSpecularGlossiness");
         glossy && !to.unlit) {
-        const auto specular = glossy->numbers<3>("specularFactor", 0, 1, {1, 1, 1});
-        to.baseColour = colour(*glossy, "diffuseFactor");
-        to.baseColourTexture = use(*glossy, "diffuseTexture", true);
-        to.specularGlossiness = {{specular[0], specular[1], specular[2]},
-                                 static_cast<float>(glossy->number("glossinessFactor", 0, 1, 1))};
-        to.metallicRoughnessTexture = use(*glossy, "specularGlossinessTexture", true);
+        to.baseColour = vec(*glossy, "diffuseFactor", glm::vec4(1));
+        to.baseColourTexture = use(*glossy, "diffuseTexture", true, to);
+        to.specularGlossiness = {vec(*glossy, "specularFactor", glm::vec3(1)),
+                                 glossy->value("glossinessFactor", 1.0f)};
+        to.metallicRoughnessTexture = use(*glossy, "specularGlossinessTexture", true, to);
         return;
     }
-    to.metallic = 1; // glTF's default
-    const auto pbr = from.object("pbrMetallicRoughness");
-    if (!pbr)
-        return;
-    to.baseColour = colour(*pbr, "baseColorFactor");
-    to.baseColourTexture = use(*pbr, "baseColorTexture", true);
-    to.metallic = static_cast<float>(pbr->number("metallicFactor", 0, 1, 1));
-    to.roughness = static_cast<float>(pbr->number("roughnessFactor", 0, 1, 1));
+    const json pbr = from.value("pbrMetallicRoughness", json::object());
+    to.baseColour = vec(pbr, "baseColorFactor", glm::vec4(1));
+    to.baseColourTexture = use(pbr, "baseColorTexture", true, to);
+    to.metallic = pbr.value("metallicFactor", 1.0f);
+    to.roughness = pbr.value("roughnessFactor", 1.0f);
     if (!to.unlit)
-        to.metallicRoughnessTexture = use(*pbr, "metallicRoughnessTexture", false);
+        to.metallicRoughnessTexture = use(pbr, "metallicRoughnessTexture", false, to);
 }
 
-void GltfMaterials::readEmission(const GltfObject& from, Material& to) {
-    const auto factor = from.numbers<3>("emissiveFactor", 0, 1e6, {0, 0, 0});
-    const auto strong = from.extension("KHR_materials_emissive_strength");
-    to.emission = glm::vec3(factor[0], factor[1], factor[2]) *
-                  static_cast<float>(strong ? strong->number("emissiveStrength", 0, 1e6, 1) : 1);
+void GltfMaterials::readEmission(const json& from, Material& to) {
+    const json* strong = extensionOf(from, "KHR_materials_emissive_strength");
+    to.emission = vec(from, "emissiveFactor", glm::vec3(0)) *
+                  (strong ? strong->value("emissiveStrength", 1.0f) : 1.0f);
     if (to.emits())
-        to.emissionTexture = use(from, "emissiveTexture", true);
+        to.emissionTexture = use(from, "emissiveTexture", true, to);
 }
 
-void GltfMaterials::warnOfAbsent(const GltfObject& from, const Material& to) const {
-    if (from.text("alphaMode") == "BLEND")
+void GltfMaterials::warnOfAbsent(const json& from, const Material& to) const {
+    if (from.value("alphaMode", "") == "BLEND")
         warn_(format("material \"{}\" is translucent; it is drawn opaque", to.name));
-    if (from.object("occlusionTexture"))
+    if (from.contains("occlusionTexture"))
         warn_("baked occlusion textures are left out: they would stand in for the technique");
 }
 
-Material GltfMaterials::convert(const GltfObject& from) {
+Material GltfMaterials::convert(const json& from) {
     Material to;
-    to.name = from.text("name");
-    to.unlit = from.extension("KHR_materials_unlit").has_value();
-    to.doubleSided = from.flag("doubleSided");
-    if (from.text("alphaMode") == "MASK")
-        to.alphaCutoff =
-            std::max(static_cast<float>(from.number("alphaCutoff", 0, 1e6, 0.5)), 1e-6f);
+    to.name = from.value("name", format("materials[{}]", coordinates_.size()));
     coordinates_.push_back({-1, -1});
+    to.unlit = extensionOf(from, "KHR_materials_unlit") != nullptr;
+    to.doubleSided = from.value("doubleSided", false);
+    if (from.value("alphaMode", "") == "MASK")
+        to.alphaCutoff = std::max(from.value("alphaCutoff", 0.5f), 1e-6f);
     readReflectance(from, to);
-    if (!to.unlit) { // which ignores all but the base colour
-        to.normalTexture = use(from, "normalTexture", false);
-        if (const auto map = from.object("normalTexture"))
-            to.normalScale = static_cast<float>(map->number("scale", -1e6, 1e6, 1));
+    if (!to.unlit) { // which leaves nothing but the base colour
+        to.normalTexture = use(from, "normalTexture", false, to);
+        if (to.normalTexture.exists())
+            to.normalScale = from.at("normalTexture").value("scale", 1.0f);
         readEmission(from, to);
     }
     warnOfAbsent(from, to);
@@ -198,7 +198,7 @@ Texture GltfMaterials::decode(const Key& key) const {
     Texture result;
     result.srgb = colour;
     try {
-        result.image = readImage8(encoded, file_.imageName(index) + extensionOf(encoded), 4);
+        result.image = readImage8(encoded, file_.imageName(index) + formatOf(encoded), 4);
     } catch (const Error& error) {
         failGltf(file_.path(), format("images[{}]", image), error.what());
     }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "renderer/scene/gltf_file.h"
-#include "renderer/scene/gltf_object.h"
 #include "renderer/scene/scene.h"
 
 #include <tiny_gltf.h>
@@ -39,11 +38,12 @@ class GltfMaterials {
   private:
     using Key = std::tuple<int, int, bool>; // image, sampler, colour
 
-    Material convert(const GltfObject& from);
-    void readReflectance(const GltfObject& from, Material& to);
-    void readEmission(const GltfObject& from, Material& to);
-    void warnOfAbsent(const GltfObject& from, const Material& to) const;
-    TextureUse use(const GltfObject& parent, const char* key, bool colour);
+    Material convert(const nlohmann::json& from);
+    void readReflectance(const nlohmann::json& from, Material& to);
+    void readEmission(const nlohmann::json& from, Material& to);
+    void warnOfAbsent(const nlohmann::json& from, const Material& to) const;
+    TextureUse use(const nlohmann::json& parent, const char* key, bool colour,
+                   const Material& material);
     int textureOf(int index, bool colour);
     Texture decode(const Key& key) const;
 
