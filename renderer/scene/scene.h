@@ -74,16 +74,16 @@ struct SpecularGlossiness {
 struct Material {
     std::string name;
     glm::vec4 baseColour{1}; // linear, multiplied with the texture
-    TextureUse baseColourTexture;
-    TextureUse normalTexture;
+    TextureUse baseColourTexture = {};
+    TextureUse normalTexture = {};
     float normalScale = 1;
-    TextureUse metallicRoughnessTexture; // roughness in green, metallic in blue
+    TextureUse metallicRoughnessTexture = {}; // roughness in green, metallic in blue
     float metallic = 0;
     float roughness = 1;
     float alphaCutoff = 0; // > 0: where there is less alpha are holes
     bool doubleSided = false;
     glm::vec3 emission{0}; // linear radiance, multiplied with the texture
-    TextureUse emissionTexture;
+    TextureUse emissionTexture = {};
     bool unlit = false; // shows its base colour, whatever the light
     // In place of metallic and roughness. The base colour is the diffuse one then, and the texture
     // of metallic and roughness has the specular colour (as sRGB), glossiness in alpha.
