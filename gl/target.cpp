@@ -142,13 +142,13 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
     return texture;
 }
 
-Texture panoramaTexture(std::span<const PanoramaLevel> levels) {
+Texture filteredTexture(std::span<const FloatLevel> levels) {
     Texture texture(GL_TEXTURE_2D);
     const auto count = static_cast<GLint>(levels.size());
     glTextureStorage2D(texture.name(), count, GL_RGB32F, levels[0].width, levels[0].height);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     for (GLint i = 0; i < count; ++i) {
-        const PanoramaLevel& level = levels[static_cast<std::size_t>(i)];
+        const FloatLevel& level = levels[static_cast<std::size_t>(i)];
         glTextureSubImage2D(texture.name(), i, 0, 0, level.width, level.height, GL_RGB, GL_FLOAT,
                             level.rgb.data());
     }

@@ -44,11 +44,11 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
 
 // Linear floats, 3 channels, filtered within and between its levels; repeats across, clamps at the
 // top and bottom. Each level is half as wide and high as the one before, rounded down.
-struct PanoramaLevel {
+struct FloatLevel {
     int width = 0, height = 0;
     std::span<const float> rgb;
 };
-Texture panoramaTexture(std::span<const PanoramaLevel> levels);
+Texture filteredTexture(std::span<const FloatLevel> levels);
 
 // One channel, rows from the bottom, read as targetTexture's are.
 Texture floatTexture(int width, int height, std::span<const float> values);

@@ -119,11 +119,11 @@ gl::UniformBuffer lightsBlock(const std::vector<PointLight>& lights) {
     return gl::UniformBuffer(std::as_bytes(std::span(block)), gl::UniformBuffer::Kind::storage);
 }
 
-gl::Texture reflectionsTexture(const Reflections& reflections) {
-    std::vector<gl::PanoramaLevel> levels;
-    for (const Image& image : reflections.levels)
+gl::Texture filteredTexture(std::span<const Image> images) {
+    std::vector<gl::FloatLevel> levels;
+    for (const Image& image : images)
         levels.push_back({image.width, image.height, image.pixels});
-    return gl::panoramaTexture(levels);
+    return gl::filteredTexture(levels);
 }
 
 } // namespace
@@ -144,7 +144,8 @@ Lighting::Lighting(const Level& level, const GpuScene& scene, const Image& panor
         program_.set("background", span3(glm::vec3(vec(level.background))));
     } else {
         const Reflections reflections = reflectionsOf(panorama);
-        panorama_ = reflectionsTexture(reflections);
+        panorama_ = filteredTexture(reflections.levels);
+        reflectance_ = filteredTexture(std::span(&reflectanceTable(), 1));
         program_.set("sharpLevel", static_cast<float>(reflections.sharp));
         program_.set("roughLevel", static_cast<float>(reflections.levels.size() - 1));
     }
@@ -167,8 +168,10 @@ void Lighting::draw(const GBuffer& gbuffer, const LightBuffers& light) const {
     gl::bindTexture(1, gbuffer.depth());
     if (readsNormals())
         gl::bindTexture(2, *gbuffer.shadingNormal());
-    if (panorama_)
+    if (panorama_) {
         gl::bindTexture(3, panorama_);
+        gl::bindTexture(5, reflectance_);
+    }
     environment_.bind(3);
     if (sceneLights_)
         sceneLights_->bind(sceneLightsBinding);

@@ -60,6 +60,7 @@ class Lighting {
 
     Level level_;
     gl::Texture panorama_; // its levels are Reflections; empty where ambient light is constant
+    gl::Texture reflectance_; // reflectanceTable(), beside it
     gl::UniformBuffer environment_;
     std::optional<gl::UniformBuffer> sceneLights_;
     std::optional<ShadowMap> shadow_;

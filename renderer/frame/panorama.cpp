@@ -213,7 +213,48 @@ Image reflected(const std::vector<Image>& sources, int width, int height, double
     return to;
 }
 
+constexpr int tableSize = 32, tableSamples = 256;
+
+// Scale and offset (Karis 2013), with lights by GGX's density of half vectors.
+glm::dvec2 reflectance(double roughness, double cosine) {
+    const double a2 = std::pow(roughness, 4);
+    const auto lambda = [&](double c) { return std::sqrt(a2 + (1 - a2) * c * c); };
+    const glm::dvec3 eye(std::sqrt(1 - cosine * cosine), 0, cosine);
+    glm::dvec2 sum(0);
+    for (unsigned i = 0; i < tableSamples; ++i) {
+        const double x = (i + 0.5) / tableSamples, turn = 2 * pi * radicalInverse(i);
+        const double up = std::sqrt((1 - x) / (1 + (a2 - 1) * x)), out = std::sqrt(1 - up * up);
+        const double toHalf = eye.x * out * std::cos(turn) + eye.z * up,
+                     light = 2 * toHalf * up - cosine;
+        if (light <= 0 || toHalf <= 0)
+            continue;
+        const double masking =
+                         2 * light * cosine / (light * lambda(cosine) + cosine * lambda(light)),
+                     share = masking * toHalf / (up * cosine), fresnel = std::pow(1 - toHalf, 5);
+        sum += glm::dvec2(1 - fresnel, fresnel) * share;
+    }
+    return sum / static_cast<double>(tableSamples);
+}
+
+Image makeReflectanceTable() {
+    Image table{tableSize, tableSize, 3, std::vector<float>(tableSize * tableSize * 3)};
+    forEachInParallel(tableSize, [&](int y) {
+        for (int x = 0; x < tableSize; ++x) {
+            const glm::dvec2 both = reflectance(std::max(y / (tableSize - 1.0), 0.01),
+                                                std::max(x / (tableSize - 1.0), 1e-3));
+            table.at(x, y, 0) = static_cast<float>(both.x);
+            table.at(x, y, 1) = static_cast<float>(both.y);
+        }
+    });
+    return table;
+}
+
 } // namespace
+
+const Image& reflectanceTable() {
+    static const Image table = makeReflectanceTable();
+    return table;
+}
 
 Reflections reflectionsOf(const Image& panorama) {
     Reflections result;

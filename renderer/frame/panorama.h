@@ -34,4 +34,11 @@ struct Reflections {
 };
 Reflections reflectionsOf(const Image& panorama);
 
+// The second factor: how much of light that is everywhere the same a surface mirrors, GGX with
+// Smith's masking of both directions together (Heitz 2014), as scale (channel 0) and offset (1) of
+// its reflectance face-on, by Schlick's Fresnel term. Columns from a cosine of 0 between normal and
+// eye to 1, rows from a roughness of 0 to 1, both at their borders' very values. Within 0.01 of the
+// integral where the cosine is above 0.1.
+const Image& reflectanceTable();
+
 } // namespace obscura

@@ -15,6 +15,7 @@ uniform vec3 background;
 #else
 layout(binding = 3) uniform sampler2D panorama; // levels of roughness (renderer/frame/panorama.h)
 uniform float sharpLevel, roughLevel;           // those of roughness 0 and 1
+layout(binding = 5) uniform sampler2D reflectanceTable;
 #endif
 
 #if !CONSTANT_AMBIENT || DIRECT
@@ -24,9 +25,8 @@ layout(binding = 2) uniform sampler2D normalBuffer;
 // What one pixel shows, in the world.
 struct Surface {
     vec3 place, normal, towardsEye;
-    vec3 diffuse;   // albedo of what is scattered
-    vec3 specular;  // reflectance face-on
-    float roughness;
+    vec3 colour; // a metal's reflectance face-on; another's albedo, which reflects 0.04 face-on
+    float metallic, roughness;
 };
 
 #if DIRECT
@@ -40,7 +40,8 @@ vec3 sentOn(Surface s, vec3 towardsLight) {
     float power = clamp(2.0 / (alpha * alpha) - 2.0, 1.0, 2048.0);
     vec3 halfway = normalize(towardsLight + s.towardsEye);
     float lobe = (power + 8.0) / 25.1327412 * pow(max(dot(s.normal, halfway), 0.0), power);
-    return s.diffuse / 3.14159265 + s.specular * lobe;
+    return s.colour * ((1.0 - s.metallic) / 3.14159265) +
+           mix(vec3(0.04), s.colour, s.metallic) * lobe;
 }
 #endif
 
@@ -119,28 +120,36 @@ vec3 radianceFrom(vec3 direction, float level) {
         .rgb;
 }
 
-// The second factor of the split sum, GGX's reflectance under light from everywhere, as scale and
-// offset of the reflectance face-on. A fit (Karis 2014, "Physically based shading on mobile", after
-// Lazarov 2013); within 0.03 of the integral, but for dim mirrors at grazing angles.
+// Scale and offset of the reflectance face-on, under light from everywhere.
 vec2 reflectance(float roughness, float cosine) {
-    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a = min(r.x * r.x, exp2(-9.28 * cosine)) * r.x + r.y;
-    return vec2(-1.04, 1.04) * a + r.zw;
+    vec2 size = vec2(textureSize(reflectanceTable, 0));
+    return textureLod(reflectanceTable, (vec2(cosine, roughness) * (size - 1.0) + 0.5) / size, 0.0)
+        .rg;
 }
 
-// What a surface sends on of the light around it: mirrored (`radiance`, already filtered), mirrored
-// more than once within its roughness, and scattered (`irradiance`, of all directions). A white
-// surface sends on all that arrives, metal or not (Fdez-Aguera 2019, "A multiple-scattering
+// The shares of light that a surface mirrors once, and more than once within its roughness: with
+// both, a white metal sends on all that arrives (Fdez-Aguera 2019, "A multiple-scattering
 // microfacet model for real-time image-based lighting").
-vec3 fromAround(Surface s, vec3 radiance, vec3 irradiance) {
-    vec2 fit = reflectance(s.roughness, max(dot(s.normal, s.towardsEye), 0.0));
+struct Mirrored {
+    vec3 once, again;
+};
+Mirrored mirrored(vec3 faceOn, vec2 fit) {
     // Nothing reflects less than 2 %: what does is in the shadow of its own roughness (as Karis).
-    float grazing = clamp(50.0 * max(max(s.specular.r, s.specular.g), s.specular.b), 0.0, 1.0);
-    vec3 once = max(s.specular * fit.x + grazing * fit.y, vec3(0.0));
-    vec3 mean = s.specular + (vec3(grazing) - s.specular) / 21.0; // over all directions
+    float grazing = clamp(50.0 * max(max(faceOn.r, faceOn.g), faceOn.b), 0.0, 1.0);
+    vec3 once = max(faceOn * fit.x + grazing * fit.y, vec3(0.0));
+    vec3 mean = faceOn + (vec3(grazing) - faceOn) / 21.0; // over all directions
     float lost = 1.0 - fit.x - fit.y;
-    vec3 again = lost * once * mean / (1.0 - lost * mean);
-    return once * radiance + (again + s.diffuse * (1.0 - once - again)) * irradiance / 3.14159265;
+    return Mirrored(once, lost * once * mean / (1.0 - lost * mean));
+}
+
+// What a surface sends on of the light around it: `radiance` comes mirrored, filtered by roughness;
+// `irradiance` from all directions. What others than metals do not mirror they scatter.
+vec3 fromAround(Surface s, vec3 radiance, vec3 irradiance) {
+    vec2 fit = reflectance(s.roughness, clamp(dot(s.normal, s.towardsEye), 0.0, 1.0));
+    Mirrored metal = mirrored(s.colour, fit), other = mirrored(vec3(0.04), fit);
+    vec3 scattered = s.colour * (1.0 - other.once - other.again);
+    return mix(other.once, metal.once, s.metallic) * radiance +
+           mix(other.again + scattered, metal.again, s.metallic) * irradiance / 3.14159265;
 }
 #endif
 
@@ -155,8 +164,8 @@ void main() {
     s.place = (frame.worldFromView * vec4(viewPosition(uvOf(pixel), depth), 1.0)).xyz;
     s.normal = normalize(mat3(frame.worldFromView) * viewNormal.xyz);
     s.towardsEye = normalize(frame.worldFromView[3].xyz - s.place);
-    s.diffuse = albedo.rgb * (1.0 - albedo.a);
-    s.specular = mix(vec3(0.04), albedo.rgb, albedo.a);
+    s.colour = albedo.rgb;
+    s.metallic = albedo.a;
     s.roughness = viewNormal.w;
 #endif
 

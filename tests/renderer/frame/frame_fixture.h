@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/context.h"
+#include "image/image.h"
 #include "renderer/frame/composite.h"
 #include "renderer/scene/quads.h"
 
@@ -75,6 +76,9 @@ inline Drawn draw(const Scene& scene, const Picture& picture) {
                 vectorsOf(light.ambient(), width, height),
                 {},
                 vectorsOf(composite.sum(), width, height)};
+    for (glm::vec4& albedo : drawn.albedo) // read back as code values
+        for (int c = 0; c < 3; ++c)
+            albedo[c] = linearFromSrgb(albedo[c]);
     if (gbuffer.emission())
         drawn.emission = vectorsOf(*gbuffer.emission(), width, height);
     if (light.hasDirect())
@@ -95,7 +99,7 @@ inline Scene square(const Material& material = {}) {
 inline Camera towardsSquare() {
     Camera camera;
     camera.position = {0, 0, 2};
-    camera.fovDegrees = 40;
+    camera.fovDegrees = 30;
     return camera;
 }
 
