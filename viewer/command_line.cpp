@@ -210,7 +210,8 @@ void addWhat(CLI::App& app, Options& options) {
                    "how far occlusion reaches, metres; default: one that suits the scene")
         ->check(numberFrom(1e-4, 1e4));
     app.add_option("--exposure", options.exposure, "stops")->check(numberFrom(-20, 20));
-    app.add_flag("!--no-textures", line.textures, "everything white and matte");
+    app.add_flag_callback(
+        "--no-textures", [&line] { line.textures = false; }, "everything white and matte");
     app.add_option("--size", options.size,
                    "WIDTHxHEIGHT of the window, or of a test's pictures; default 1280x720");
     app.add_option("--device", line.device, "of a test: one of obscura-render --devices");
@@ -230,7 +231,8 @@ void addWindow(CLI::App& app, Options& options) {
     app.add_option("--ui-scale", line.uiScale, "of letters and panels; default: the screen's")
         ->check(numberFrom(0.5, 4));
     app.add_option("--tab", line.tab, "the panel that is open")->check(CLI::IsMember(tabNames()));
-    app.add_flag("!--no-panels", line.panels, "the pictures alone");
+    app.add_flag_callback(
+        "--no-panels", [&line] { line.panels = false; }, "the pictures alone");
     app.add_flag("--keys", line.help, "with the keys on the screen");
     app.add_option("--picture", line.picture,
                    "save the window as PNG when everything is drawn, and end");
