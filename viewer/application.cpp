@@ -60,15 +60,16 @@ Application::Application(const CommandLine& line)
 Application::~Application() = default;
 
 void Application::open(const SceneChoice& choice) {
-    state_.scene = choice;
-    state_.view.file = choice.file.empty() ? "" : inScenesFolder(choice.file, line_.scenes);
-    state_.view.builtin = choice.builtin;
-    state_.view.ground = choice.ground;
-    state_.sceneId = worker_->open(choice);
+    opening_ = worker_->open(choice);
     if (!choice.file.empty())
         browser_.folder = fs::absolute(choice.file).parent_path();
-    window_.setTitle("Obscura – " + nameOf(choice));
+    name(choice);
     message_.text.clear();
+}
+
+void Application::name(const SceneChoice& choice) {
+    state_.scene = choice;
+    window_.setTitle("Obscura – " + nameOf(choice));
 }
 
 // What the command line says of the view counts for the scene that it names, and only once.
@@ -81,6 +82,11 @@ void Application::takeNews() {
     const auto opened = worker_->opened();
     if (opened && opened != opened_) {
         opened_ = opened;
+        name(opened->choice);
+        state_.view.file =
+            opened->choice.file.empty() ? "" : inScenesFolder(opened->choice.file, line_.scenes);
+        state_.view.builtin = opened->choice.builtin;
+        state_.view.ground = opened->choice.ground;
         adopt(state_, *opened);
         for (const View& view : line_.views)
             state_.views.push_back(view);
@@ -98,15 +104,8 @@ void Application::takeNews() {
             say(lastError_, true);
     }
     // A scene that could not be opened leaves the one before.
-    if (opened_ && !status_.loading && state_.sceneId != opened_->id) {
-        state_.scene = opened_->choice;
-        state_.sceneId = opened_->id;
-        state_.view.file =
-            opened_->choice.file.empty() ? "" : inScenesFolder(opened_->choice.file, line_.scenes);
-        state_.view.builtin = opened_->choice.builtin;
-        state_.view.ground = opened_->choice.ground;
-        window_.setTitle("Obscura – " + nameOf(state_.scene));
-    }
+    if (opened_ && !status_.loading && std::exchange(opening_, 0) > opened_->id)
+        name(opened_->choice);
 }
 
 Wanted Application::wanted() const {
@@ -133,7 +132,8 @@ void Application::frame() {
     area_ = drawPanels();
     const bool flying = fly();
     carryOut(std::exchange(requests_, {}));
-    worker_->want(wanted());
+    if (opened_) // until another scene is ready, this one is drawn
+        worker_->want(wanted());
     worker_->probe(hand_.pixel ? std::optional(std::array{hand_.pixel->x, hand_.pixel->y})
                                : std::nullopt);
     window_.end();

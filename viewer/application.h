@@ -39,6 +39,7 @@ class Application {
   private:
     void frame();
     void open(const SceneChoice& choice);
+    void name(const SceneChoice& choice);
     void takeNews();
     void takeKeys();
     void press(const KeyPress& key);
@@ -62,6 +63,7 @@ class Application {
     Message message_;
     History history_;
     std::string lastError_;
+    SceneId opening_ = 0; // begun, and nothing is known yet; 0 for none
     std::shared_ptr<const Opened> opened_;
     std::shared_ptr<const Drawn> drawn_;
     Status status_;

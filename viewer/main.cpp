@@ -2,7 +2,6 @@
 #include "viewer/application.h"
 #include "viewer/command_line.h"
 #include "viewer/test_command.h"
-#include "viewer/test_command.h"
 
 namespace {
 

@@ -198,8 +198,9 @@ void statusPanel(Moment& moment, const Box& place) {
     float right = static_cast<float>(place.right()) - ui.px(12);
     const float half = static_cast<float>(place.x + place.width * 0.42);
     if (moment.drawn) {
+        // At rest, what everything would take.
         const double ms =
-            moment.drawn->intervalMs > 0 ? moment.drawn->intervalMs : moment.drawn->frameMs;
+            moment.drawn->intervalMs > 0 ? moment.drawn->intervalMs : wholeMs(*moment.drawn);
         rightAligned(right, middle, fmt::format("{:.1f} FPS", ms > 0 ? 1000 / ms : 0),
                      colours::text, ui, half);
         rightAligned(

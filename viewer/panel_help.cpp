@@ -69,11 +69,25 @@ void group(Ui& ui, const Group& each) {
     ImGui::Dummy({0, ui.px(8)});
 }
 
+// All that lies below gets darker, and does not feel the mouse.
+void dim(const ImVec2& screen) {
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize(screen);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, IM_COL32(0, 0, 0, 130));
+    ImGui::SetNextWindowFocus();
+    ImGui::Begin("##dim", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav);
+    ImGui::End();
+    ImGui::PopStyleColor();
+}
+
 } // namespace
 
 void helpPanel(Moment& moment) {
     Ui& ui = moment.ui;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    dim(screen);
     ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.x - ui.px(16), screen.y - ui.px(16)});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.px(22), ui.px(16)});

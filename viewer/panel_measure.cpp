@@ -101,8 +101,8 @@ void times(Moment& moment) {
     workLegend(ui);
     fact(ui, "G-buffer and light",
          fmt::format("{:.3g} + {:.3g} ms", drawn.gbufferMs, drawn.lightMs));
-    fact(ui, "Last picture", fmt::format("{:.3g} ms", drawn.frameMs),
-         "From the wish to the finished picture\nWhat has not changed is not drawn again");
+    fact(ui, "Whole picture", fmt::format("{:.3g} ms", wholeMs(drawn)),
+         "G-buffer, light and all techniques\nWhat has not changed is not drawn again");
 }
 
 void qualityTable(Moment& moment) {
@@ -161,9 +161,12 @@ void reference(Moment& moment) {
                  "occlusion that fades with distance"))
         state.integral = static_cast<Integral>(integral);
     std::vector<std::string> names;
-    for (const Display& display : displays())
-        names.push_back(display.name);
-    choice(ui, "Display", names, state.display);
+    std::vector<std::string> tips;
+    for (const Display& display : displays()) {
+        names.push_back(inWords(std::string_view(display.name)));
+        tips.push_back(inWords(display));
+    }
+    choice(ui, "Display", names, state.display, tips);
     slider(ui,
            {"Scale of errors", scaleBetween(0.01, 1), 0.25, Unit::ratio,
             "The error, or difference, that has the last colour of the map"},
@@ -218,6 +221,13 @@ void pixel(Moment& moment) {
 }
 
 } // namespace
+
+double wholeMs(const Drawn& drawn) {
+    double ms = drawn.gbufferMs + drawn.lightMs;
+    for (const PaneDrawn& pane : drawn.panes)
+        ms += pane.ms;
+    return ms;
+}
 
 void History::add(const Drawn& drawn) {
     if (drawn.number == number)

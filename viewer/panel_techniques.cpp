@@ -55,10 +55,9 @@ void paneButtons(Moment& moment) {
     state.selected = std::min(state.selected, count - 1);
     if (count == 1)
         return;
-    const float gap = ui.px(6), full = ImGui::GetContentRegionAvail().x;
-    const float width = (full - gap * static_cast<float>(count - 1)) / static_cast<float>(count);
-    for (int pane = 0; pane < count; ++pane) {
-        if (pane > 0)
+    const float gap = ui.px(6), width = (ImGui::GetContentRegionAvail().x - gap) / 2;
+    for (int pane = 0; pane < count; ++pane) { // in two columns, as in the grid
+        if (pane % 2 == 1)
             ImGui::SameLine(0, gap);
         const auto index = static_cast<std::size_t>(pane);
         const ImVec2 low = ImGui::GetCursorScreenPos(), size{width, ui.px(30)};
@@ -176,7 +175,7 @@ void buttonsBelow(Moment& moment, Settings& settings) {
     const float gap = ui.px(6);
     const float half = (ImGui::GetContentRegionAvail().x - gap) / 2;
     ImGui::BeginDisabled(isDefault(settings));
-    if (button(ui, "Reset", "All settings of this technique back to their defaults", half))
+    if (button(ui, "Reset all", "All settings of this technique back to their defaults", half))
         setTechnique(state, state.selected, settings.technique());
     ImGui::EndDisabled();
     ImGui::SameLine(0, gap);

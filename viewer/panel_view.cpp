@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace obscura {
 
@@ -27,7 +28,7 @@ void sceneFacts(Moment& moment) {
     if (button(ui, "Open…", "A glTF file (.gltf, .glb)  (Ctrl+O)", half))
         moment.requests.browse = true;
     ImGui::SameLine(0, gap);
-    if (button(ui, "Frame it", "The view that the scene opened with  (F)", half))
+    if (button(ui, "Frame scene", "The view that the scene opened with  (F)", half))
         moment.requests.frame = true;
     if (!moment.opened)
         return;
@@ -76,7 +77,8 @@ void cameraRows(Moment& moment) {
             "cursor is locked; Shift hurries"},
            state.speed);
     const auto text = [](const Vec3& v) {
-        return fmt::format("{:.3f}  {:.3f}  {:.3f}", v[0], v[1], v[2]);
+        const auto plain = [](double x) { return std::round(x * 1000) / 1000 + 0.0; }; // no "-0"
+        return fmt::format("{:.3f}  {:.3f}  {:.3f}", plain(v[0]), plain(v[1]), plain(v[2]));
     };
     fact(ui, "Position", text(camera.position));
     fact(ui, "Target", text(camera.target));
@@ -119,7 +121,12 @@ void lightRows(Moment& moment) {
            {"Exposure", scaleBetween(-8, 8), 0, Unit::ratio,
             "In stops: light is scaled by 2 to this power before the display curve"},
            state.view.exposure);
-    static const std::vector<std::string> curves{"Clamp", "Reinhard"};
+    static const std::vector<std::string> curves = [] {
+        std::vector<std::string> words;
+        for (const std::string& name : curveNames())
+            words.push_back(inWords(std::string_view(name)));
+        return words;
+    }();
     int curve = static_cast<int>(state.level.curve);
     if (choice(ui, "Tone curve", curves, curve))
         state.level.curve = static_cast<Curve>(curve);

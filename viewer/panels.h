@@ -96,6 +96,7 @@ struct Hand {
 };
 Hand picturesPanel(Moment& moment);
 
-std::string letterOf(int pane); // "A"
+double wholeMs(const Drawn& drawn); // of a picture of which everything is drawn
+std::string letterOf(int pane);     // "A"
 
 } // namespace obscura

@@ -19,6 +19,7 @@ const std::vector<std::string>& tabTitles() {
 }
 
 State::State() : level(levelNamed("moderate")) {
+    view.radius = 0.5; // metres, until a scene suggests another
     for (const char* id : {"none", "gtao", "hbao", "starcraft"})
         panes.emplace_back(technique(id));
 }
@@ -43,6 +44,7 @@ Wanted wantedOf(const State& state, const Box& area, double gap) {
 
 void adopt(State& state, const Opened& opened) {
     const glm::vec3 extent = opened.bounds.high - opened.bounds.low;
+    state.sceneId = opened.id;
     state.size = std::max(static_cast<double>(glm::length(extent)), 1e-6);
     state.speed = walkingSpeed(state.size);
     state.view.camera = opened.camera;

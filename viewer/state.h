@@ -27,7 +27,7 @@ struct State {
     double renderScale = 1;
 
     std::vector<Settings> panes; // always four; the layout says how many are seen
-    int selected = 0;            // the pane whose settings are shown
+    int selected = 1;            // the pane whose settings are shown
     bool sameSamples = false;    // all panes make as many fetches as the first
 
     Show show = Show::lit;

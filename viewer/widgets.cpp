@@ -12,10 +12,8 @@ namespace obscura {
 
 namespace {
 
-constexpr double labelWidth = 142; // of rows, logical pixels
-constexpr double valueWidth = 62;
-constexpr double resetWidth = 18;
-constexpr double rowHeight = 25;
+// Of rows, logical pixels. The sign that resets stands at the end of the label.
+constexpr double labelWidth = 152, resetWidth = 18, valueWidth = 58, rowHeight = 24;
 
 ImVec2 centredText(const ImVec2& low, const ImVec2& high, const char* text) {
     const ImVec2 size = ImGui::CalcTextSize(text);
@@ -26,7 +24,7 @@ void rowLabel(Ui& ui, const std::string& name, ImU32 colour) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float y = at.y + std::floor((ui.px(rowHeight) - ImGui::GetTextLineHeight()) / 2);
     ImGui::GetWindowDrawList()->AddText({at.x, y}, colour,
-                                        fitted(name, ui.px(labelWidth - 4)).c_str());
+                                        fitted(name, ui.px(labelWidth - resetWidth)).c_str());
 }
 
 // What is being typed into, and what was typed so far.
@@ -150,10 +148,6 @@ bool resetSign(Ui& ui, const SliderRow& row, double& value) {
     return pressed;
 }
 
-float fieldWidth(const Ui& ui, bool labelled) {
-    return ImGui::GetContentRegionAvail().x - (labelled ? ui.px(labelWidth) : 0);
-}
-
 } // namespace
 
 void Ui::note(const char* label) {
@@ -217,7 +211,9 @@ void fact(Ui& ui, const char* name, const std::string& value, const std::string&
     list.AddText({at.x, y}, colours::muted, name);
     list.AddText({at.x + full - ImGui::CalcTextSize(text.c_str()).x, y}, colours::text,
                  text.c_str());
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, ui.px(1)});
     ImGui::Dummy({full, height});
+    ImGui::PopStyleVar();
     ui.note(name);
     tooltip(ui, tip.empty() && text != value ? value : tip);
 }
@@ -255,15 +251,15 @@ bool slider(Ui& ui, const SliderRow& row, double& value) {
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, ui.px(1)});
     rowLabel(ui, shown(row.label), colours::muted);
     const float full = ImGui::GetContentRegionAvail().x;
-    const float track = full - ui.px(labelWidth + valueWidth + resetWidth);
-    ImGui::InvisibleButton("##name", {ui.px(labelWidth), ui.px(rowHeight)});
+    const float track = full - ui.px(labelWidth + valueWidth);
+    ImGui::InvisibleButton("##name", {ui.px(labelWidth - resetWidth), ui.px(rowHeight)});
     tooltip(ui, row.tip);
     ImGui::SameLine();
-    bool changed = dragTrack(ui, row, value, track);
+    bool changed = resetSign(ui, row, value);
+    ImGui::SameLine();
+    changed |= dragTrack(ui, row, value, track);
     ImGui::SameLine();
     changed |= showValue(ui, row, value);
-    ImGui::SameLine();
-    changed |= resetSign(ui, row, value);
     ImGui::PopStyleVar();
     ImGui::PopID();
     return changed;
@@ -274,7 +270,9 @@ bool toggle(Ui& ui, const char* label, bool& on, const std::string& tip) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const std::string name = shown(label);
     const float y = low.y + std::floor((ui.px(rowHeight) - ImGui::GetTextLineHeight()) / 2);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, ui.px(1)});
     const bool pressed = ImGui::InvisibleButton(label, {full, ui.px(rowHeight)});
+    ImGui::PopStyleVar();
     if (pressed)
         on = !on;
     ui.note(label);
@@ -282,7 +280,7 @@ bool toggle(Ui& ui, const char* label, bool& on, const std::string& tip) {
     tooltip(ui, tip);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddText({low.x, y}, hovered ? colours::text : colours::muted, name.c_str());
-    const float width = ui.px(30), height = ui.px(16), right = low.x + full - ui.px(resetWidth);
+    const float width = ui.px(30), height = ui.px(16), right = low.x + full;
     const float top = low.y + std::floor((ui.px(rowHeight) - height) / 2);
     list.AddRectFilled({right - width, top}, {right, top + height},
                        on ? colours::accent : (hovered ? colours::fieldHeld : colours::field),
@@ -299,20 +297,24 @@ bool segments(Ui& ui, const char* label, std::span<const std::string> words, int
     ImGui::PushID(label);
     if (!name.empty()) {
         rowLabel(ui, name, colours::muted);
-        ImGui::InvisibleButton("##name", {ui.px(labelWidth), ui.px(rowHeight)});
+        ImGui::InvisibleButton("##name", {ui.px(labelWidth - resetWidth), ui.px(rowHeight)});
         tooltip(ui, tip);
         ImGui::SameLine(0, 0);
     }
-    const float full = fieldWidth(ui, false), height = ui.px(rowHeight);
+    const float full = ImGui::GetContentRegionAvail().x, height = ui.px(rowHeight);
     const ImVec2 low = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(low, {low.x + full, low.y + height}, colours::field, ui.px(5));
-    const float each = full / static_cast<float>(words.size());
+    float text = 0;
+    for (const std::string& word : words)
+        text += ImGui::CalcTextSize(word.c_str()).x;
+    const float pad = (full - text) / static_cast<float>(words.size());
     for (int i = 0; i < static_cast<int>(words.size()); ++i) {
         const std::string& word = words[static_cast<std::size_t>(i)];
         if (i > 0)
             ImGui::SameLine(0, 0);
         const ImVec2 from = ImGui::GetCursorScreenPos();
+        const float each = ImGui::CalcTextSize(word.c_str()).x + pad;
         const ImVec2 to{from.x + each, from.y + height};
         ImGui::PushID(i);
         if (ImGui::InvisibleButton("##segment", {each, height}) && chosen != i) {
@@ -340,10 +342,10 @@ bool choice(Ui& ui, const char* label, std::span<const std::string> words, int& 
     ImGui::PushID(label);
     if (!name.empty()) {
         rowLabel(ui, name, colours::muted);
-        ImGui::Dummy({ui.px(labelWidth), ui.px(rowHeight)});
+        ImGui::Dummy({ui.px(labelWidth - resetWidth), ui.px(rowHeight)});
         ImGui::SameLine(0, 0);
     }
-    const float full = fieldWidth(ui, false), height = ui.px(rowHeight + 1);
+    const float full = ImGui::GetContentRegionAvail().x, height = ui.px(rowHeight + 1);
     const ImVec2 low = ImGui::GetCursorScreenPos(), high{low.x + full, low.y + height};
     if (ImGui::InvisibleButton("##open", {full, height}))
         ImGui::OpenPopup("##list");
