@@ -29,9 +29,6 @@ Wanted wishOf(const Opened& opened, int argc, char** argv) {
     wanted.view.camera = opened.camera;
     wanted.view.radius = opened.radius;
     wanted.level = sunAndSky();
-    if (getenv("LOW")) { wanted.level = Level{}; wanted.level.ambient = Vec3{1,1,1}; }
-    if (getenv("MOD")) wanted.level.sun.reset();
-    if (getenv("SHOW")) wanted.show = (Show)atoi(getenv("SHOW"));
     wanted.width = argc > 4 ? std::atoi(argv[3]) : 1280;
     wanted.height = argc > 4 ? std::atoi(argv[4]) : 720;
     TechniqueSetting setting;

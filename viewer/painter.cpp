@@ -140,7 +140,8 @@ const gl::Texture& Painter::State::composited(const gl::Texture& visibility, boo
     }
     composite->restart();
     composite->set(wanted.view, wanted.level);
-    composite->draw(buffers->lightBuffers(), visibility, sendsLight, guard);
+    composite->draw(buffers->lightBuffers(), visibility, sendsLight, guard,
+                    buffers->sight().gbuffer.emission());
     return composite->sum();
 }
 

@@ -48,7 +48,7 @@ struct Wanted {
                  // `scene`
     Level level; // `environment`: absolute, or relative to the working folder
     Normals normals = Normals::smooth;
-    bool textures = true;        // without them everything is white and matte
+    bool textures = true;        // without them everything is white
     int width = 0, height = 0;   // of each pane's picture: the pane's pixels x render scale
     std::vector<Settings> panes; // one to four, each complete (its radius in metres)
     Show show = Show::lit;       // in all panes

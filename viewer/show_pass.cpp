@@ -65,11 +65,12 @@ constexpr double worstJod = 7; // has the last colour
 using Colours = std::vector<std::array<std::uint8_t, 3>>;
 
 gl::Texture textureOf(const Colours& colours) {
-    std::vector<float> values;
-    for (const auto& colour : colours)
-        for (const std::uint8_t code : colour)
-            values.push_back(static_cast<float>(code) / 255);
-    return gl::panoramaTexture(static_cast<int>(colours.size()), 1, values);
+    std::vector<std::uint8_t> codes;
+    for (const auto& colour : colours) {
+        codes.insert(codes.end(), colour.begin(), colour.end());
+        codes.push_back(255);
+    }
+    return gl::imageTexture(static_cast<int>(colours.size()), 1, false, codes, {});
 }
 
 std::uint8_t codeOf(float linear) { return displayed(Image{1, 1, 1, {linear}}).pixels.front(); }

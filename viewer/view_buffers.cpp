@@ -32,7 +32,8 @@ std::string viewText(const Wanted& wanted) {
 }
 
 bool holds(const GBufferContent& content, const GBufferContent& needed) {
-    return (content.albedo || !needed.albedo) && (content.shadingNormal || !needed.shadingNormal) &&
+    return (content.albedo || !needed.albedo) && (content.emission || !needed.emission) &&
+           (content.shadingNormal || !needed.shadingNormal) &&
            (!needed.occlusionNormal || content.occlusionNormal == needed.occlusionNormal);
 }
 
@@ -92,7 +93,7 @@ bool ViewBuffers::draw(int guard, const GBufferContent& content, bool white) {
                              .first->second;
     bindFrame(sight.block);
     subject_.pass().draw(subject_.scene(), frame, sight.gbuffer);
-    if (white && content.albedo) // no specular intensity either: matte
+    if (white && content.albedo) // and no metal
         sight.gbuffer.target().clear(0, {1, 1, 1, 0});
     return true;
 }
@@ -108,6 +109,7 @@ bool ViewBuffers::drawGBuffer(const Wanted& wanted, bool lit) {
     GBufferContent content;
     content.shadingNormal = lit && lighting_->readsNormals();
     content.occlusionNormal = occlusionNormals(wanted);
+    content.emission = lit && wanted.textures && subject_.scene().emits();
     return draw(0, content, !wanted.textures);
 }
 

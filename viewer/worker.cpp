@@ -73,6 +73,8 @@ struct Worker::State {
     void refresh(Painter& painter);
     void atRest(Painter& painter);
     void answerProbe(Painter& painter);
+    void giveVisibilities(Painter& painter, std::size_t panes,
+                          const std::function<void(std::vector<Image>)>& taken);
     void say(Doing what);
     void before(const Painter::Step& step);
     void publish(Drawn picture);
@@ -90,6 +92,7 @@ struct Worker::State {
     std::optional<Wanted> last;                           // the newest that was begun
     bool loaded = false, traced = false, probing = false; // there may be something new of each
     std::optional<std::array<int, 2>> pixel;              // to probe
+    std::function<void(std::vector<Image>)> capture;      // null: none is waited for
     std::shared_ptr<const Opened> opened;
     std::shared_ptr<const Drawn> drawn;
     std::optional<Probed> probed;
@@ -123,7 +126,7 @@ void Worker::State::wakeFor(bool& news) {
 
 bool Worker::State::canDraw() const { return wish && opened && wish->scene == opened->id; }
 
-bool Worker::State::hasWork() const { return loaded || canDraw() || traced || probing; }
+bool Worker::State::hasWork() const { return loaded || canDraw() || traced || probing || capture; }
 
 // One for a scene that will never be ready.
 void Worker::State::dropForeignWish() {
@@ -163,8 +166,15 @@ void Worker::State::loop(Painter& painter) {
             return;
         busy = true;
         lock.unlock();
-        step(painter, rested);
+        std::string problem;
+        try {
+            step(painter, rested);
+        } catch (const std::exception& error) { // of reading back, say: no memory
+            problem = error.what();
+        }
         lock.lock();
+        if (!problem.empty())
+            drawError = problem;
     }
 }
 
@@ -180,6 +190,11 @@ void Worker::State::step(Painter& painter, bool rested) {
         lock.unlock();
         draw(painter, wanted);
         follow(painter);
+    } else if (const auto taken = std::exchange(capture, nullptr)) {
+        const bool there = drawn && drawn->wanted.scene == painter.scene();
+        const std::size_t panes = there ? drawn->panes.size() : 0;
+        lock.unlock();
+        giveVisibilities(painter, panes, taken);
     } else if (std::exchange(traced, false)) {
         lock.unlock();
         refresh(painter);
@@ -389,6 +404,15 @@ void Worker::State::answerProbe(Painter& painter) {
     notify();
 }
 
+void Worker::State::giveVisibilities(Painter& painter, std::size_t panes,
+                                     const std::function<void(std::vector<Image>)>& taken) {
+    std::vector<Image> images;
+    for (std::size_t i = 0; i < panes; ++i)
+        images.push_back(painter.visibility(static_cast<int>(i)));
+    taken(std::move(images));
+    notify();
+}
+
 Worker::Worker(MakeContext makeContext, Notify notify)
     : state_(std::make_unique<State>(std::move(notify))) {
     state_->thread =
@@ -447,6 +471,14 @@ void Worker::probe(std::optional<std::array<int, 2>> pixel) {
         state_->pixel = pixel;
         state_->probed.reset();
         state_->probing = true;
+    }
+    state_->wake.notify_one();
+}
+
+void Worker::capture(std::function<void(std::vector<Image>)> taken) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->capture = std::move(taken);
     }
     state_->wake.notify_one();
 }

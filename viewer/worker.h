@@ -83,6 +83,11 @@ class Worker {
     void want(Wanted wanted);
     // The pixel to probe, of every picture from now on; nothing: none.
     void probe(std::optional<std::array<int, 2>> pixel);
+    // Calls `taken` once, on the drawing thread, with the visibility of each pane of the newest
+    // picture (1 channel, rows from the top) as soon as what is wanted by now has been drawn; then
+    // notifies. Where there is no picture, with none. It must not call the worker.
+    void capture(std::function<void(std::vector<Image>)> taken);
+
     std::shared_ptr<const Opened> opened() const; // the newest that is ready; null before
     std::shared_ptr<const Drawn> newest() const;  // null before the first
     std::optional<Probed> probed() const; // of the newest picture; none while it is not known
