@@ -239,7 +239,7 @@ fault cut-object renderer/framing.cpp \
     's|margin = 0\.88|margin = 1.2|' \
     renderer_test 'Framing.*'
 fault crumbs-count renderer/extent.cpp \
-    's|each\.nearest > reach \+ gap|each.nearest > 1e9f|' \
+    's|each\.nearest > reach \+ gap|each.nearest > reach + 1e9f * gap|' \
     renderer_test 'Framing.*'
 fault looks-through renderer/reference/ray_scene.cpp \
     's|cutout\.oneSided = oneSided|cutout.oneSided = false|' \
