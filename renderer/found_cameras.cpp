@@ -196,8 +196,8 @@ SuggestedRadius suggestedRadius(const Sight& sight, const RayTracer& tracer,
         if (next < lowestRadius || next > highestRadius)
             break;
         const double then = meanOcclusion(seen, tracer, next);
-        if (next > radius ? then > mostly : then < hardly)
-            break; // from one side to the other
+        if (next > radius ? then > mostly || then <= occlusion : then < hardly)
+            break; // from one side to the other, or where there is nothing more to meet
         radius = next;
         occlusion = then;
     }

@@ -185,6 +185,21 @@ TEST(Framing, LooksAtWhatStandsOnAHugeFloor) {
     }
 }
 
+// A stage of a few large boxes, with one thing on it that somebody has modelled.
+TEST(Framing, LooksAtWhereTheDetailIs) {
+    Scene scene;
+    addBall(scene, 0.5f, 32);
+    const std::size_t ball = scene.vertices.size();
+    for (int i = 0; i < 6; ++i) {
+        addBox(scene, vec3(2 * i - 6, -0.7f, -4), vec3(2 * i - 4, -0.5f, 4));
+        addBox(scene, vec3(2 * i - 6, -0.5f, -4), vec3(2 * i - 5.5f, 3, -3.5f));
+    }
+    const Framing found = framed(scene);
+    SCOPED_TRACE(found.why);
+    expectWhole(scene, ball, found.camera);
+    expectNothingCut(scene, found);
+}
+
 TEST(Framing, LooksAtWhatIsUnderTheDomeOfASky) {
     Scene scene = tower();
     const std::size_t first = scene.indices.size();
