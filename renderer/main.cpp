@@ -1,8 +1,10 @@
 #include "base/arguments.h"
 #include "base/progress.h"
+#include "protocols/reader/study_text.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/compare.h"
 #include "renderer/framing.h"
+#include "renderer/levels.h"
 #include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
 #include "renderer/techniques/document.h"
@@ -90,20 +92,6 @@ Recipe recipeOfProtocol(const Options& options, SceneHashes& scenes, const gl::D
                             options.condition, suggestion(options.condition, ids)));
 }
 
-Level levelOf(const std::string& name) {
-    Level level;
-    level.name = name;
-    if (name == "low") {
-        level.ambient = Vec3{1, 1, 1};
-        level.curve = Curve::clamp;
-        return level;
-    }
-    level.sky = Sky{};
-    if (name == "high")
-        level.sun = Sun{62, 66, {4, 3.8, 3.4}};
-    return level;
-}
-
 // Camera and radius that suit the view's scene, unless the options say otherwise; and what to type
 // for the same again.
 void frame(View& view, const Options& options, const Folders& folders) {
@@ -150,7 +138,7 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     }
     view.exposure = options.exposure;
     protocol.views.push_back(view);
-    protocol.levels.push_back(levelOf(options.level));
+    protocol.levels.push_back(levelNamed(options.level));
     TechniqueSetting setting{"technique", options.techniqueId, {}, {}};
     if (!options.preset.empty())
         setting.preset = {options.preset, {}};
@@ -276,7 +264,7 @@ int run(int argc, char** argv) {
         ->check(numberFrom(-32, 32))
         ->capture_default_str();
     app.add_option("--level", options.level, "low, moderate or high")
-        ->check(CLI::IsMember({"low", "moderate", "high"}))
+        ->check(CLI::IsMember(levelNames()))
         ->capture_default_str();
     app.add_option("--technique", options.techniqueId, "id of --list")->capture_default_str();
     app.add_option("--preset", options.preset, "a preset of --describe; --set overrides it");

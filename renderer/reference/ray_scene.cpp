@@ -78,19 +78,24 @@ struct AlphaMap {
 
 // The triangles of a material that rays may pass: masked, or drawn from one side.
 struct Cutout {
-    const AlphaMap* map = nullptr; // null: alpha is the factor alone
-    float factor = 1, cutoff = 0;
+    // What decides on a hole, at one corner: place on the map, and alpha of vertex and material.
+    struct Corner {
+        glm::vec2 uv;
+        float alpha;
+    };
+    const AlphaMap* map = nullptr; // null: alpha is the corners' alone
+    float cutoff = 0;              // 0: no holes
     bool oneSided = false;
     std::vector<std::uint32_t> indices;
-    std::vector<glm::vec2> uvs; // one for each index, where there is a map
+    std::vector<Corner> corners; // one for each index, where there are holes
 
     bool hole(std::uint32_t triangle, float u, float v) const {
-        if (!map)
-            return factor < cutoff;
-        const std::size_t first = 3 * static_cast<std::size_t>(triangle);
-        return factor *
-                   map->at((1 - u - v) * uvs[first] + u * uvs[first + 1] + v * uvs[first + 2]) <
-               cutoff;
+        if (corners.empty())
+            return false;
+        const Corner* corner = &corners[3 * static_cast<std::size_t>(triangle)];
+        const Corner &a = corner[0], &b = corner[1], &c = corner[2];
+        const float w = 1 - u - v, alpha = w * a.alpha + u * b.alpha + v * c.alpha;
+        return alpha * (map ? map->at(w * a.uv + u * b.uv + v * c.uv) : 1.0f) < cutoff;
     }
 };
 
@@ -158,17 +163,20 @@ void RayScene::State::sort(const Scene& from, Sides sides) {
             continue;
         }
         Cutout& cutout = cutouts[mesh.material];
-        cutout.factor = material.baseColour.a;
         cutout.cutoff = material.alphaCutoff;
         cutout.oneSided = oneSided;
-        if (const int index = material.baseColourTexture; index >= 0 && material.alphaCutoff > 0) {
-            if (!maps.contains(index))
-                maps[index] = alphaMap(from.textures[static_cast<std::size_t>(index)]);
-            cutout.map = &maps[index];
+        const bool masked = material.alphaCutoff > 0;
+        const TextureUse& use = material.baseColourTexture;
+        if (masked && use.exists()) {
+            if (!maps.contains(use.texture))
+                maps[use.texture] = alphaMap(from.textures[static_cast<std::size_t>(use.texture)]);
+            cutout.map = &maps[use.texture];
         }
         cutout.indices.insert(cutout.indices.end(), first, first + mesh.indexCount);
-        for (std::uint32_t i = 0; cutout.map && i < mesh.indexCount; ++i)
-            cutout.uvs.push_back(from.vertices[first[i]].uv);
+        for (std::uint32_t i = 0; masked && i < mesh.indexCount; ++i) {
+            const Vertex& vertex = from.vertices[first[i]];
+            cutout.corners.push_back({use.at(vertex), material.baseColour.a * vertex.colour.a});
+        }
     }
     for (auto& [material, each] : places) // as they will be attached
         firsts.push_back(std::move(each));

@@ -10,8 +10,9 @@ namespace obscura {
 // A scene's triangles where Embree can find them: robust intersection, static, and of high quality
 // where both sides are met, as references want it.
 // Masked materials have the rasteriser's holes: alpha of level 0
-// of the base colour map, filtered and wrapped as OpenGL does it, times the base colour's, below
-// the cutoff. (The rasteriser's distant pixels read coarser levels; rays have no distance.)
+// of the base colour map, filtered and wrapped as OpenGL does it, times the base colour's and the
+// vertices', below the cutoff. (The rasteriser's distant pixels read coarser levels; rays have no
+// distance.)
 class RayScene {
   public:
     // Which sides of triangles are met: both, or those that the rasteriser draws, which skips the
@@ -20,7 +21,8 @@ class RayScene {
     enum class Sides { both, drawn };
     static constexpr unsigned meetsBacks = 1;
 
-    // Copies positions, indices, and of masked materials texture coordinates and 8-bit alpha.
+    // Copies positions, indices, and of masked materials texture coordinates, vertex alpha and
+    // 8-bit alpha of the map.
     explicit RayScene(const Scene& scene, Sides sides = Sides::both);
     ~RayScene();
     RayScene(RayScene&&) noexcept;

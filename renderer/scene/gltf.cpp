@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "renderer/scene/gltf_accessor.h"
 #include "renderer/scene/gltf_check.h"
+#include "renderer/scene/gltf_extensions.h"
 #include "renderer/scene/gltf_file.h"
 #include "renderer/scene/gltf_materials.h"
 #include "renderer/scene/gltf_piece.h"
@@ -59,7 +60,8 @@ class Loader {
           materials_(file_, model_, [this](const std::string& message) { warn(message); }) {}
 
     Scene load() {
-        warnOfExtensions();
+        for (const std::string& sentence : extensionsLeftOut(file_.root()))
+            warn(sentence);
         scene_.materials = materials_.materials();
         scene_.textures = materials_.textures();
         if (model_.scenes.empty())
@@ -98,29 +100,6 @@ class Loader {
                             "coordinates are missing or degenerate; the vertex normal stands in",
                             scene_.materials[static_cast<std::size_t>(material)].name, sum.lost,
                             sum.all, sum.first));
-    }
-
-    // Those that the file says it uses, and those that it uses without saying so.
-    void warnOfExtensions() {
-        std::set<std::string> names;
-        for (const nlohmann::json& name :
-             file_.root().value("extensionsUsed", nlohmann::json::array()))
-            names.insert(name.get<std::string>());
-        collectExtensions(file_.root(), names);
-        names.erase(
-            "KHR_mesh_quantization"); // needs nothing but the component types that it allows
-        for (const std::string& name : names)
-            warn(format("extension {} is not supported; it is left out", name));
-    }
-
-    static void collectExtensions(const nlohmann::json& value, std::set<std::string>& names) {
-        for (const auto& [key, item] : value.items()) {
-            if (value.is_object() && key == "extensions" && item.is_object())
-                for (const auto& [name, content] : item.items())
-                    names.insert(name);
-            if (item.is_structured() && key != "extras")
-                collectExtensions(item, names);
-        }
     }
 
     // Nodes -------------------------------------------------------------------------------------
@@ -410,15 +389,20 @@ class Loader {
                                                 glm::dvec3(value(0), value(1), value(2)));
             vertex.tangent = glm::vec4(tangent, value(3) < 0 ? -1 : 1);
         });
-        const int set = primitive.material < 0 ? 0 : materials_.coordinates(primitive.material);
+        const GltfMaterials::Coordinates sets = primitive.material < 0
+                                                    ? GltfMaterials::Coordinates{0, -1}
+                                                    : materials_.coordinates(primitive.material);
         std::size_t lost = 0;
-        read(format("TEXCOORD_{}", set), [&](Vertex& vertex, const auto& value, std::size_t) {
-            vertex.uv = {value(0), value(1)};
-            if (!std::isfinite(vertex.uv.x) || !std::isfinite(vertex.uv.y)) {
-                vertex.uv = glm::vec2(0);
-                ++lost;
-            }
-        });
+        for (const std::size_t set : {std::size_t{0}, std::size_t{1}})
+            read(format("TEXCOORD_{}", sets[set]),
+                 [&](Vertex& vertex, const auto& value, std::size_t) {
+                     glm::vec2& uv = set == 0 ? vertex.uv : vertex.uv1;
+                     uv = {value(0), value(1)};
+                     if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+                         uv = glm::vec2(0);
+                         ++lost;
+                     }
+                 });
         if (lost > 0)
             warn(format("{}: {} texture coordinates are no finite numbers; 0 stands in", at, lost));
     }
@@ -433,14 +417,29 @@ class Loader {
         return defaultMaterial_;
     }
 
+    // Whether the material stays as it is when Vertex::uv is moved by whole periods along u, and
+    // along v: all its textures repeat there, and none is scaled or turned.
+    std::pair<bool, bool> repeats(const Material& material) const {
+        std::pair<bool, bool> result(false, false);
+        bool first = true;
+        for (const TextureUse& use : {material.baseColourTexture, material.normalTexture,
+                                      material.metallicRoughnessTexture, material.emissionTexture})
+            if (use.exists() && use.set == 0) {
+                const Texture& texture = scene_.textures[static_cast<std::size_t>(use.texture)];
+                const auto along = [&](bool before, Wrap wrap) {
+                    return (first || before) && wrap != Wrap::clamp && use.plain();
+                };
+                result = {along(result.first, texture.wrapU), along(result.second, texture.wrapV)};
+                first = false;
+            }
+        return result;
+    }
+
     void append(const tinygltf::Primitive& primitive, Piece piece, const std::string& at) {
         const int index = materialOf(primitive);
         const Material& material = scene_.materials[static_cast<std::size_t>(index)];
-        if (material.baseColourTexture >= 0) {
-            const Texture& texture =
-                scene_.textures[static_cast<std::size_t>(material.baseColourTexture)];
-            recentre(piece, texture.wrapU != Wrap::clamp, texture.wrapV != Wrap::clamp);
-        }
+        const auto [alongU, alongV] = repeats(material);
+        recentre(piece, alongU, alongV);
         const auto firstVertex = static_cast<std::uint32_t>(scene_.vertices.size());
         const Mesh mesh{static_cast<std::uint32_t>(scene_.indices.size()),
                         static_cast<std::uint32_t>(piece.corners.size()), index};
@@ -449,7 +448,7 @@ class Loader {
             scene_.indices.push_back(firstVertex + corner);
         if (mesh.indexCount > 0)
             scene_.meshes.push_back(mesh);
-        if (material.normalTexture < 0)
+        if (!material.normalTexture.exists())
             return;
         if (!primitive.attributes.contains("TANGENT"))
             deriveTangents(scene_, mesh);

@@ -1,4 +1,5 @@
 // What a view must show, on scenes that are hard to show. Nothing here needs OpenGL.
+#include "protocols/reader/study_text.h"
 #include "renderer/extent.h"
 #include "renderer/found_cameras.h"
 #include "renderer/framing.h"
@@ -188,7 +189,7 @@ TEST(Framing, LooksAtWhatStandsOnAHugeFloor) {
 // A stage of a few large boxes, with one thing on it that somebody has modelled.
 TEST(Framing, LooksAtWhereTheDetailIs) {
     Scene scene;
-    addBall(scene, 0.5f, 32);
+    addBall(scene, 0.5f, 64);
     const std::size_t ball = scene.vertices.size();
     for (int i = 0; i < 6; ++i) {
         addBox(scene, vec3(2 * i - 6, -0.7f, -4), vec3(2 * i - 4, -0.5f, 4));

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "renderer/scene/gltf_json.h"
+
+namespace obscura {
+
+// Images, samplers, textures and materials, as part of checkGltf().
+void checkGltfMaterials(const GltfJson& json);
+
+} // namespace obscura
