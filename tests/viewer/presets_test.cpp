@@ -75,7 +75,7 @@ TEST_F(Presets, AreOfOneScene) {
     builtin.radius = 0.5;
     storeView(folder_.path(), viewOf(scene_.file, "window"));
     storeView(folder_.path(), builtin);
-    EXPECT_EQ(storedViews(folder_.path(), same).size(), 1u);
+    ASSERT_EQ(storedViews(folder_.path(), same).size(), 1u);
     EXPECT_EQ(storedViews(folder_.path(), same)[0].file, same.file);
     EXPECT_TRUE(storedViews(folder_.path(), other).empty());
     EXPECT_EQ(storedViews(folder_.path(), builtin).size(), 1u);
