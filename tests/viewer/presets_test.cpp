@@ -2,8 +2,8 @@
 #include "protocols/reader/study_text.h"
 #include "tests/error_of.h"
 #include "tests/folder.h"
-
 #include "viewer/presets.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
