@@ -33,6 +33,8 @@ class Checker : private GltfJson {
         each("buffers", [&](const json& o, const std::string& at) {
             whole(o, "byteLength", at, 1, mostBytes, true);
             text(o, "uri", at);
+            if (const json* packed = extension(o, "EXT_meshopt_compression", at))
+                flag(*packed, "fallback", extensionPath(at, "EXT_meshopt_compression"));
         });
         each("bufferViews", [&](const json& o, const std::string& at) { checkView(o, at); });
         each("accessors", [&](const json& o, const std::string& at) { checkAccessor(o, at); });

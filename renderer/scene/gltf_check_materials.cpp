@@ -11,7 +11,7 @@ namespace {
 
 class Checker : private GltfJson {
   public:
-    explicit Checker(const GltfJson& json) : GltfJson(json) {}
+    explicit Checker(const GltfJson& values) : GltfJson(values) {}
 
     void run() const {
         each("images", [&](const json& o, const std::string& at) { checkImage(o, at); });
@@ -77,6 +77,6 @@ class Checker : private GltfJson {
 
 } // namespace
 
-void checkGltfMaterials(const GltfJson& json) { Checker(json).run(); }
+void checkGltfMaterials(const GltfJson& values) { Checker(values).run(); }
 
 } // namespace obscura

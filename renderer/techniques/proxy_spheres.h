@@ -27,7 +27,7 @@ class ProxySpheres {
 class SceneSpheres {
   public:
     explicit SceneSpheres(const Scene& scene)
-        : triangles_{scene.vertices, scene.indices, {}, {}, {}, {}, {}} {}
+        : triangles_{scene.vertices, scene.indices, {}, {}, {}, {}, {}, {}, {}} {}
     const ProxySpheres& operator()() const;
 
   private:
