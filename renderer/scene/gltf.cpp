@@ -3,6 +3,7 @@
 #include "renderer/scene/gltf_extensions.h"
 #include "renderer/scene/gltf_file.h"
 #include "renderer/scene/gltf_materials.h"
+#include "renderer/scene/gltf_model.h"
 #include "renderer/scene/gltf_piece.h"
 #include "renderer/scene/gltf_placed.h"
 #include "renderer/scene/gltf_primitive.h"
@@ -29,27 +30,6 @@ namespace {
 
 constexpr int deepestNode = 256;
 constexpr std::size_t mostTriangles = 50'000'000; // of all instances together: some 7 GB
-
-// tinygltf reads the structure alone: buffers, images and everything that is not shown are ours or
-// nobody's, so that it opens no file and trusts no length.
-tinygltf::Model modelOf(const GltfFile& file) {
-    nlohmann::json structure;
-    for (const char* key : {"asset", "scene", "scenes", "nodes", "meshes", "materials", "textures",
-                            "samplers", "accessors", "bufferViews", "skins"})
-        if (file.root().contains(key))
-            structure[key] = file.root().at(key);
-    const std::string text =
-        structure.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    tinygltf::TinyGLTF reader;
-    tinygltf::Model model;
-    std::string errors, warnings;
-    if (!reader.LoadASCIIFromString(&model, &errors, &warnings, text.data(),
-                                    static_cast<unsigned>(text.size()), "")) {
-        std::replace(errors.begin(), errors.end(), '\n', ' ');
-        failGltf(file.path(), "", "expected a glTF 2.0 scene: " + errors);
-    }
-    return model;
-}
 
 // One loading: the model on one side, the scene on the other.
 class Loader {
