@@ -59,6 +59,9 @@ class Loader {
         addCamerasAndLights();
         if (scene_.indices.empty())
             failGltf(file_.path(), "", "expected triangles, found none");
+        for (const auto& camera : file_.root().value("cameras", nlohmann::json::array()))
+            if (camera.at("type") == "orthographic")
+                warn("orthographic cameras are left out");
         if (file_.root().contains("animations") && !file_.root().at("animations").empty())
             warn("animations are not played: the scene is shown as its nodes stand in the file");
         warnOfNormalMaps();

@@ -1,6 +1,5 @@
 #include "renderer/scene/gltf_check.h"
 
-#include "base/error.h"
 #include "renderer/scene/gltf_check_materials.h"
 #include "renderer/scene/gltf_extensions.h"
 #include "renderer/scene/gltf_json.h"
@@ -311,11 +310,6 @@ class Checker : private GltfJson {
 };
 
 } // namespace
-
-void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
-              const std::string& message) {
-    throw Error({file.string(), 0, 0, jsonPath}, message);
-}
 
 void checkGltf(const json& root, const std::filesystem::path& file) {
     const GltfJson values(root, file);
