@@ -105,23 +105,36 @@ GLint modeOf(Wrap wrap) {
     }
 }
 
+GLint modeOf(Minified minified) {
+    constexpr GLint modes[] = {GL_NEAREST,
+                               GL_LINEAR,
+                               GL_NEAREST_MIPMAP_NEAREST,
+                               GL_LINEAR_MIPMAP_NEAREST,
+                               GL_NEAREST_MIPMAP_LINEAR,
+                               GL_LINEAR_MIPMAP_LINEAR};
+    return modes[static_cast<std::size_t>(minified)];
+}
+
 } // namespace
 
 Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba,
                      Sampling sampling) {
     Texture texture(GL_TEXTURE_2D);
-    const int levels = std::bit_width(static_cast<unsigned>(std::max(width, height)));
+    const bool mipmaps = sampling.minified > Minified::linear;
+    const int levels = mipmaps ? std::bit_width(static_cast<unsigned>(std::max(width, height))) : 1;
     glTextureStorage2D(texture.name(), levels, srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8, width, height);
     glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
                         rgba.data());
-    glGenerateTextureMipmap(texture.name());
-    setParameter(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    if (mipmaps)
+        glGenerateTextureMipmap(texture.name());
+    setParameter(texture, GL_TEXTURE_MIN_FILTER, modeOf(sampling.minified));
     setParameter(texture, GL_TEXTURE_MAG_FILTER, sampling.nearest ? GL_NEAREST : GL_LINEAR);
     setParameter(texture, GL_TEXTURE_WRAP_S, modeOf(sampling.u));
     setParameter(texture, GL_TEXTURE_WRAP_T, modeOf(sampling.v));
     // Colour only: software drivers take five times as long for it, and blurred relief at grazing
     // angles is not seen.
-    if (srgb && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
+    if (srgb && sampling.minified == Minified::linearMipmapLinear &&
+        epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
         GLfloat most = 1;
         glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
         glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
@@ -129,12 +142,17 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
     return texture;
 }
 
-Texture panoramaTexture(int width, int height, std::span<const float> rgb) {
+Texture filteredTexture(std::span<const FloatLevel> levels) {
     Texture texture(GL_TEXTURE_2D);
-    glTextureStorage2D(texture.name(), 1, GL_RGB32F, width, height);
+    const auto count = static_cast<GLint>(levels.size());
+    glTextureStorage2D(texture.name(), count, GL_RGB32F, levels[0].width, levels[0].height);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGB, GL_FLOAT, rgb.data());
-    setParameter(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    for (GLint i = 0; i < count; ++i) {
+        const FloatLevel& level = levels[static_cast<std::size_t>(i)];
+        glTextureSubImage2D(texture.name(), i, 0, 0, level.width, level.height, GL_RGB, GL_FLOAT,
+                            level.rgb.data());
+    }
+    setParameter(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     setParameter(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     setParameter(texture, GL_TEXTURE_WRAP_S, GL_REPEAT);
     setParameter(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);

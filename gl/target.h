@@ -22,18 +22,33 @@ const char* glslName(Format format); // as an image's layout qualifier: "r16f"
 // depth32f compares instead (sampler2DShadow) with linear filtering.
 Texture targetTexture(int width, int height, Format format, const std::string& label);
 
-// A texture with mipmaps, trilinear and anisotropic filtering. `rgba` rows from first to last
-// have v = 0 to v = 1.
+// How a texture is read by coordinate. Where it is made smaller, OpenGL's six ways in the order of
+// their numbers; the first two have no mipmaps, and the last is anisotropic too.
 enum class Wrap { repeat, mirrored, clamp };
+enum class Minified {
+    nearest,
+    linear,
+    nearestMipmapNearest,
+    linearMipmapNearest,
+    nearestMipmapLinear,
+    linearMipmapLinear
+};
 struct Sampling {
     Wrap u = Wrap::repeat, v = Wrap::repeat;
     bool nearest = false; // texels are squares where they are enlarged
+    Minified minified = Minified::linearMipmapLinear;
 };
+// `rgba` rows from first to last have v = 0 to v = 1.
 Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba,
                      Sampling sampling);
 
-// Linear floats, 3 channels, filtered; repeats across, clamps at the top and bottom.
-Texture panoramaTexture(int width, int height, std::span<const float> rgb);
+// Linear floats, 3 channels, filtered within and between its levels; repeats across, clamps at the
+// top and bottom. Each level is half as wide and high as the one before, rounded down.
+struct FloatLevel {
+    int width = 0, height = 0;
+    std::span<const float> rgb;
+};
+Texture filteredTexture(std::span<const FloatLevel> levels);
 
 // One channel, rows from the bottom, read as targetTexture's are.
 Texture floatTexture(int width, int height, std::span<const float> values);

@@ -9,18 +9,18 @@ LitView::LitView(const Subject& subject, const View& view, const Level& level,
                  std::uint64_t seed)
     : width_(width), height_(height),
       lighting_(level, subject.scene(), protocolFolder / level.environment),
+      gbuffer_(width, height, {true, lighting_.readsNormals(), {}, subject.scene().emits()}),
       light_(width, height, lighting_.hasDirect()), composite_(view, level, width, height, false) {
     const Frame frame = makeFrame(view.camera, width, height, subject.scene().bounds(), seed);
     const gl::UniformBuffer block = frameBuffer(frame);
     bindFrame(block);
-    const GBuffer gbuffer(width, height, {true, lighting_.readsNormals(), {}});
-    subject.pass().draw(subject.scene(), frame, gbuffer);
-    lighting_.draw(gbuffer, light_);
+    subject.pass().draw(subject.scene(), frame, gbuffer_);
+    lighting_.draw(gbuffer_, light_);
 }
 
 Image8 LitView::image(const Image& visibility) {
     composite_.restart();
-    composite_.draw(light_, visibilityTexture(visibility));
+    composite_.draw(light_, visibilityTexture(visibility), false, 0, gbuffer_.emission());
     return displayed(flipped(composite_.mean(), width_, height_, 4, 0, 3));
 }
 

@@ -19,6 +19,7 @@ class LitView {
   private:
     int width_, height_;
     Lighting lighting_;
+    GBuffer gbuffer_;
     LightBuffers light_;
     Composite composite_;
 };

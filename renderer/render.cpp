@@ -42,10 +42,12 @@ glm::vec2 jitterOf(int frame, int count) {
     return {coordinate(0.7548776662466927), coordinate(0.5698402909980532)};
 }
 
+void hashTarget(Sha256& hash, const gl::Target& target, int i) {
+    hash.add(gl::readBytes(target.colour(i), target.width(), target.height(), target.format(i)));
+}
 void hashTargets(Sha256& hash, const gl::Target& target, int count) {
     for (int i = 0; i < count; ++i)
-        hash.add(
-            gl::readBytes(target.colour(i), target.width(), target.height(), target.format(i)));
+        hashTarget(hash, target, i);
 }
 
 Image layerOf(const gl::Target& target, int index) {
@@ -115,10 +117,8 @@ Settings settingsOf(const Recipe& recipe) {
 
 std::string shaderSha256(const Settings& settings, const Level& level) {
     Sha256 hash;
-    for (const char* name : {"depth_only.vert", "gbuffer.vert", "gbuffer.frag", "screen.vert"})
-        hash.add(shaderText(name).text());
-    for (const bool masked : {false, true})
-        hash.add(DepthPass::fragmentShader(masked).text());
+    hash.add(shaderText("screen.vert").text());
+    hash.add(gbufferShaders());
     hash.add(lightShader(level).text());
     for (const Pass* pass : enabledPasses(settings)) {
         for (int l = 0; l < (pass->levels > 1 ? 2 : 1); ++l)
@@ -254,6 +254,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
     GBufferContent content;
     content.shadingNormal = lighting.readsNormals();
     content.occlusionNormal = normalsFor(settings.technique(), recipe.normals);
+    content.emission = scene.emits();
     const GBuffer gbuffer(recipe.width, recipe.height, content);
     // What the technique sees, where that is more than the image shows.
     std::optional<GBuffer> padded;
@@ -280,12 +281,15 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
         lighting.draw(gbuffer, light);
         clock.mark(times_.light);
         hashTargets(inputs, gbuffer.target(), lighting.readsNormals() ? 3 : 2);
+        if (gbuffer.emission())
+            hashTarget(inputs, gbuffer.target(), 4);
         hashTargets(inputs, light.target(), light.target().count());
         if (i == 0) {
             firstDepth =
                 gl::readFloats(gbuffer.depth(), recipe.width, recipe.height, gl::Format::r32f);
             empty = frame.depth.y;
-            constexpr const char* names[] = {"albedo", "depth", "normal", "occlusion-normal"};
+            constexpr const char* names[] = {"albedo", "depth", "normal", "occlusion-normal",
+                                             "emission"};
             for (int c = 0; layers && c < gbuffer.target().count(); ++c)
                 if (gbuffer.target().has(c))
                     result.layers[names[c]] = layerOf(gbuffer.target(), c);
@@ -312,7 +316,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                            },
                                            std::cref(stage_->subject->spheres())});
         clock.mark(times_.occlusion);
-        composite.draw(light, visibility, occlusion.sendsLight(), guard);
+        composite.draw(light, visibility, occlusion.sendsLight(), guard, gbuffer.emission());
         clock.mark(times_.composite);
     }
 

@@ -57,14 +57,14 @@ Settings settingsOf(const Recipe& recipe);
 std::string shaderSha256(const Settings& settings, const Level& level);
 
 struct Rendering {
-    Image8 image;     // sRGB, as shown
-    Image visibility; // 1 channel
-    std::map<std::string, Image>
-        layers;               // on request: "linear" (before the display curve), "albedo",
-                              // "normal", "occlusion-normal", "depth" (of the first jittered frame)
+    Image8 image;                        // sRGB, as shown
+    Image visibility;                    // 1 channel
+    std::map<std::string, Image> layers; // on request: "linear" (before the display curve),
+                                         // "albedo", "normal", "occlusion-normal", "emission",
+                                         // "depth" (of the first jittered frame)
     std::string inputsSha256; // of what composite and lighting read, for every jittered frame:
-                              // albedo, depth, ambient and direct light, and normals where the
-                              // lighting reads them
+                              // albedo, depth, ambient and direct light, emission, and normals
+                              // where the lighting reads them
     double meanOcclusion = 0; // over the pixels that show a surface in the first frame
 };
 

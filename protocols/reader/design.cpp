@@ -50,9 +50,9 @@ json toJson(const Sun& sun) {
 }
 
 json toJson(const Level& level) {
-    const auto& [name, ambient, background, sky, environment, sun, curve, white, occludeDirect,
-                 place] = level;
-    json result = {{"curve", curve == Curve::clamp ? "clamp" : "reinhard"},
+    const auto& [name, ambient, background, sky, environment, sun, sceneLights, curve, white,
+                 occludeDirect, place] = level;
+    json result = {{"curve", curveNames()[static_cast<std::size_t>(curve)]},
                    {"white", white},
                    {"occludeDirect", occludeDirect}};
     if (ambient) {
@@ -65,6 +65,8 @@ json toJson(const Level& level) {
         result["environment"] = environment;
     if (sun)
         result["sun"] = toJson(*sun);
+    if (sceneLights) // designs without stay the same
+        result["sceneLights"] = true;
     return result;
 }
 

@@ -3,6 +3,7 @@
 #include "base/files.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -40,7 +41,7 @@ json toJson(const View& view) {
 
 json toJson(const Level& level) {
     json result = {{"name", level.name},
-                   {"curve", level.curve == Curve::clamp ? "clamp" : "reinhard"},
+                   {"curve", curveNames()[static_cast<std::size_t>(level.curve)]},
                    {"white", level.white},
                    {"occludeDirect", level.occludeDirect}};
     if (level.ambient) {
@@ -57,6 +58,8 @@ json toJson(const Level& level) {
         result["sun"] = {{"azimuthDegrees", level.sun->azimuthDegrees},
                          {"elevationDegrees", level.sun->elevationDegrees},
                          {"irradiance", level.sun->irradiance}};
+    if (level.sceneLights) // recipes without stay the same
+        result["sceneLights"] = true;
     return result;
 }
 
@@ -172,6 +175,17 @@ class Node {
         read(result);
         return result;
     }
+    // The place of a word in a list of those that are known.
+    std::size_t choice(const std::vector<std::string>& words) const {
+        const auto word = as<std::string>();
+        const auto found = std::find(words.begin(), words.end(), word);
+        if (found == words.end())
+            throw Error({file_, 0, 0, path_},
+                        fmt::format("expected one of {}, found \"{}\"; another version of the "
+                                    "program may have made the file",
+                                    fmt::join(words, ", "), word));
+        return static_cast<std::size_t>(found - words.begin());
+    }
     std::vector<Node> items() const {
         if (!value_->is_array())
             throw Error({file_, 0, 0, path_}, "expected a list, found something else");
@@ -228,7 +242,7 @@ View readView(const Node& node) {
 Level readLevel(const Node& node) {
     Level level;
     node["name"].read(level.name);
-    level.curve = node["curve"].as<std::string>() == "clamp" ? Curve::clamp : Curve::reinhard;
+    level.curve = static_cast<Curve>(node["curve"].choice(curveNames()));
     node["white"].read(level.white);
     node["occludeDirect"].read(level.occludeDirect);
     if (node.has("ambient")) {
@@ -244,6 +258,8 @@ Level readLevel(const Node& node) {
         level.sun =
             Sun{node["sun"]["azimuthDegrees"].as<double>(),
                 node["sun"]["elevationDegrees"].as<double>(), node["sun"]["irradiance"].as<Vec3>()};
+    if (node.has("sceneLights"))
+        node["sceneLights"].read(level.sceneLights);
     return level;
 }
 

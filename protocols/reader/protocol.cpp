@@ -70,9 +70,10 @@ Level parseLevel(const std::string& name, TomlTable table) {
     }
     if (auto sun = table.table("sun"))
         level.sun = parseSun(std::move(*sun));
-    level.curve = table.choice("curve", {"clamp", "reinhard"}, constant ? 0 : 1) == 0
-                      ? Curve::clamp
-                      : Curve::reinhard;
+    level.sceneLights = table.flag("sceneLights", level.sceneLights);
+    level.curve = static_cast<Curve>(
+        table.choice("curve", curveNames(),
+                     static_cast<std::size_t>(constant ? Curve::clamp : Curve::reinhard)));
     level.white = table.number("white", 0.01, 1e4, level.white);
     level.occludeDirect = table.flag("occludeDirect", level.occludeDirect);
     table.finish();

@@ -60,7 +60,11 @@ struct Sun {
     Vec3 irradiance{3, 2.9, 2.7}; // on a surface that faces it
 };
 
-enum class Curve { clamp, reinhard };
+// How scene light becomes display light, after exposure (shaders/composite.frag has the sources).
+enum class Curve { clamp, reinhard, aces, neutral };
+
+// Their spellings, in the order of the enumeration.
+const std::vector<std::string>& curveNames();
 
 // Lighting of one complexity level (thesis 5.3). Exactly one of: constant ambient light on a plain
 // background; a sky; an environment image. The sun may be added to any of them.
@@ -71,9 +75,10 @@ struct Level {
     std::optional<Sky> sky;
     std::string environment; // equirectangular HDR image, relative to the protocol's folder
     std::optional<Sun> sun;
+    bool sceneLights = false;      // with the lights that the scene's file brings, unshadowed
     Curve curve = Curve::reinhard; // display curve
     double white = 4;              // the luminance that Reinhard's curve maps to display white
-    bool occludeDirect = false;    // occlude the sun's light as well
+    bool occludeDirect = false;    // occlude the light of sun and scene as well
     Place place;
 };
 

@@ -211,6 +211,11 @@ Normals parseNormals(TomlTable& root) {
         root.choice("normals", normalsNames(), static_cast<std::size_t>(Normals::smooth)));
 }
 
+const std::vector<std::string>& curveNames() {
+    static const std::vector<std::string> names{"clamp", "reinhard", "aces", "neutral"};
+    return names;
+}
+
 const std::vector<std::string>& normalsNames() {
     static const std::vector<std::string> names{"face", "smooth", "mapped"};
     return names;

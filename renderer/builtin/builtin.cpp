@@ -22,31 +22,52 @@ void addBytes(Sha256& hash, const std::vector<T>& values) {
 }
 
 // The structures are taken apart by as many names as they have members, so that a new member does
-// not compile until it is hashed here, too.
+// not compile until it is hashed here, too. Of what few scenes have, nothing is hashed where it is
+// as it is without: their hashes stay.
 
 void addMesh(Sha256& hash, const Mesh& mesh) {
     const auto& [firstIndex, indexCount, material] = mesh;
     hash.add(fmt::format("mesh {} {} {}\n", firstIndex, indexCount, material));
 }
 
+void addUse(Sha256& hash, const TextureUse& from) {
+    const auto& [texture, set, offset, scale, rotation] = from;
+    if (!from.plain())
+        hash.add(fmt::format("use {} {} {:a} {:a} {:a} {:a} {:a}\n", texture, set, offset.x,
+                             offset.y, scale.x, scale.y, rotation));
+}
+
 void addMaterial(Sha256& hash, const Material& from) {
     const auto& [name, baseColour, baseColourTexture, normalTexture, normalScale,
-                 metallicRoughnessTexture, metallic, roughness, alphaCutoff, doubleSided] = from;
+                 metallicRoughnessTexture, metallic, roughness, alphaCutoff, doubleSided, emission,
+                 emissionTexture, unlit, specularGlossiness] = from;
     hash.add(fmt::format("material {:a} {:a} {:a} {:a} {} {} {:a} {} {:a} {:a} {:a} {}\n",
-                         baseColour.r, baseColour.g, baseColour.b, baseColour.a, baseColourTexture,
-                         normalTexture, normalScale, metallicRoughnessTexture, metallic, roughness,
-                         alphaCutoff, doubleSided));
+                         baseColour.r, baseColour.g, baseColour.b, baseColour.a,
+                         baseColourTexture.texture, normalTexture.texture, normalScale,
+                         metallicRoughnessTexture.texture, metallic, roughness, alphaCutoff,
+                         doubleSided));
+    for (const TextureUse& use :
+         {baseColourTexture, normalTexture, metallicRoughnessTexture, emissionTexture})
+        addUse(hash, use);
+    if (from.emits())
+        hash.add(fmt::format("emits {:a} {:a} {:a} {} {}\n", emission.r, emission.g, emission.b,
+                             emissionTexture.texture, unlit));
+    if (specularGlossiness)
+        hash.add(fmt::format("specular {:a} {:a} {:a} {:a}\n", specularGlossiness->specular.r,
+                             specularGlossiness->specular.g, specularGlossiness->specular.b,
+                             specularGlossiness->glossiness));
 }
 
 void addTexture(Sha256& hash, const Texture& texture) {
-    const auto& [image, srgb, wrapU, wrapV, nearest] = texture;
+    const auto& [image, srgb, wrapU, wrapV, nearest, minified] = texture;
     const auto& [width, height, channels, pixels] = image;
     hash.add(fmt::format("texture {} x {} x {} {} {} {} {}\n", width, height, channels, srgb,
                          static_cast<int>(wrapU), static_cast<int>(wrapV), nearest));
+    if (minified != Texture{}.minified)
+        hash.add(fmt::format("minified {}\n", static_cast<int>(minified)));
     addBytes(hash, pixels);
 }
 
-// Of what few scenes have, nothing is hashed where it is as it is without: their hashes stay.
 void addVertices(Sha256& hash, const std::vector<Vertex>& vertices) {
     using Plain = std::array<float, 12>; // position, normal, tangent, uv
     using Rest = std::array<float, 6>;   // uv1, colour

@@ -50,7 +50,7 @@ void addSurroundings(Scene& scene) {
 
 void addFigure(Scene& scene, const char* name, Figure figure, const glm::mat4& place) {
     Material material{.name = name};
-    material.baseColourTexture = addColourTexture(scene, std::move(figure.colours));
+    material.baseColourTexture.texture = addColourTexture(scene, std::move(figure.colours));
     material.roughness = 0.75F;
     scene.materials.push_back(material);
     Shape placed;

@@ -78,7 +78,7 @@ void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres
         scene.indices.push_back(places[index]);
     }
     scene.meshes.push_back(mesh);
-    if (scene.materials[static_cast<std::size_t>(material)].normalTexture >= 0)
+    if (scene.materials[static_cast<std::size_t>(material)].normalTexture.exists())
         deriveTangents(scene, mesh);
 }
 

@@ -73,11 +73,11 @@ int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Pai
     });
     if (material.alphaCutoff > 0)
         colour.wrapU = colour.wrapV = Wrap::clamp;
-    material.baseColourTexture = keep(scene, std::move(colour));
+    material.baseColourTexture.texture = keep(scene, std::move(colour));
     if (canvas.relief)
-        material.normalTexture = keep(scene, normalsOf(heights, canvas));
+        material.normalTexture.texture = keep(scene, normalsOf(heights, canvas));
     if (canvas.gloss)
-        material.metallicRoughnessTexture = keep(scene, std::move(gloss));
+        material.metallicRoughnessTexture.texture = keep(scene, std::move(gloss));
     scene.materials.push_back(std::move(material));
     return static_cast<int>(scene.materials.size()) - 1;
 }

@@ -11,9 +11,13 @@ Composite::Composite(const View& view, const Level& level, int width, int height
       sum_(width, height, std::vector<gl::Format>(linear ? 2 : 1, gl::Format::rgba32f), false,
            "sum of frames") {
     restart();
+    set(view, level);
+}
+
+void Composite::set(const View& view, const Level& level) {
     program_.set("exposure", static_cast<float>(std::exp2(view.exposure)));
-    program_.set("white", level.curve == Curve::clamp ? 0.0f : static_cast<float>(level.white));
-    program_.set("hasDirect", level.sun ? 1 : 0);
+    program_.set("curve", static_cast<int>(level.curve));
+    program_.set("white", static_cast<float>(level.white));
     program_.set("occludeDirect", level.occludeDirect ? 1 : 0);
 }
 
@@ -24,7 +28,7 @@ void Composite::restart() {
 }
 
 void Composite::draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight,
-                     int guard) {
+                     int guard, const gl::Texture* emission) {
     sum_.bind();
     gl::State state;
     state.add = true;
@@ -32,9 +36,13 @@ void Composite::draw(const LightBuffers& light, const gl::Texture& visibility, b
     program_.use();
     program_.set("sendsLight", sendsLight ? 1 : 0);
     program_.set("guard", guard);
+    program_.set("hasDirect", light.hasDirect() ? 1 : 0);
+    program_.set("hasEmission", emission ? 1 : 0);
     gl::bindTexture(0, light.ambient());
     gl::bindTexture(1, light.direct());
     gl::bindTexture(2, visibility);
+    if (emission)
+        gl::bindTexture(3, *emission);
     triangle_.draw();
     ++frames_;
 }

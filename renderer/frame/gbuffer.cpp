@@ -1,5 +1,6 @@
 #include "renderer/frame/gbuffer.h"
 
+#include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -32,7 +33,21 @@ std::span<const std::byte> bytesOf(const std::vector<Vertex>& vertices) {
 // The scene's and OpenGL's names for the same thing.
 static_assert(static_cast<int>(Wrap::repeat) == static_cast<int>(gl::Wrap::repeat) &&
               static_cast<int>(Wrap::mirrored) == static_cast<int>(gl::Wrap::mirrored) &&
-              static_cast<int>(Wrap::clamp) == static_cast<int>(gl::Wrap::clamp));
+              static_cast<int>(Wrap::clamp) == static_cast<int>(gl::Wrap::clamp) &&
+              static_cast<int>(Minified::linear) == static_cast<int>(gl::Minified::linear) &&
+              static_cast<int>(Minified::linearMipmapLinear) ==
+                  static_cast<int>(gl::Minified::linearMipmapLinear));
+
+// Those of shaders/material.glsl, by their bindings: base colour; normal, metallic and roughness;
+// emission.
+int mapsOf(GpuScene::Reads reads) {
+    return reads == GpuScene::Reads::forDepth ? 1 : reads == GpuScene::Reads::withEmission ? 4 : 3;
+}
+
+void addFrameBlock(gl::ShaderText& text) {
+    text.addFile(shaderFolder(), "frame.h");
+    text.add("layout(std140, binding = 0) uniform FrameBlock { Frame frame; };", "(frame block)");
+}
 
 } // namespace
 
@@ -76,67 +91,172 @@ Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bound
     return frame;
 }
 
+namespace {
+
+MaterialFeatures featuresOf(const Scene& scene, const Mesh& mesh) {
+    const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+    MaterialFeatures result;
+    result.masked = material.alphaCutoff > 0;
+    for (const TextureUse& use : {material.baseColourTexture, material.normalTexture,
+                                  material.metallicRoughnessTexture, material.emissionTexture})
+        result.transformed |= use.exists() && !use.plain();
+    const auto first = scene.indices.begin() + mesh.firstIndex;
+    result.coloured = std::any_of(first, first + mesh.indexCount, [&](std::uint32_t index) {
+        return scene.vertices[index].colour != glm::vec4(1);
+    });
+    result.glossiness = material.specularGlossiness.has_value();
+    return result;
+}
+
+} // namespace
+
 GpuScene::GpuScene(const Scene& scene)
     : bounds_(scene.bounds()), meshes_(scene.meshes), materials_(scene.materials),
+      lights_(scene.lights),
       geometry_(bytesOf(scene.vertices), std::array{3, 3, 4, 2, 2, 4}, scene.indices),
       white_(gl::constantTexture({1, 1, 1, 1})) {
     for (const Texture& texture : scene.textures)
         textures_.push_back(gl::imageTexture(
             texture.image.width, texture.image.height, texture.srgb, texture.image.pixels,
             {static_cast<gl::Wrap>(texture.wrapU), static_cast<gl::Wrap>(texture.wrapV),
-             texture.nearest}));
-}
-
-const gl::Texture& GpuScene::texture(int index) const {
-    return index < 0 ? white_ : textures_[static_cast<std::size_t>(index)];
-}
-
-void GpuScene::bindMaterial(const gl::Program& program, const Material& material) const {
-    gl::bindTexture(0, texture(material.baseColourTexture));
-    gl::bindTexture(1, texture(material.normalTexture));
-    gl::bindTexture(2, texture(material.metallicRoughnessTexture));
-    program.set("baseColour", std::span<const float, 4>(glm::value_ptr(material.baseColour), 4));
-    const float surface[4] = {material.alphaCutoff, material.metallic, material.roughness,
-                              material.normalTexture < 0 ? 0.0f : material.normalScale};
-    program.set("surface", std::span<const float, 4>(surface));
-}
-
-void GpuScene::draw(const gl::Program& program, Take take, bool cullBackFaces,
-                    gl::State state) const {
-    program.use();
-    geometry_.bind();
+             texture.nearest, static_cast<gl::Minified>(texture.minified)}));
     for (const Mesh& mesh : meshes_) {
-        const Material& material = materials_[static_cast<std::size_t>(mesh.material)];
-        const bool masked = material.alphaCutoff > 0;
-        if ((take == Take::opaque && masked) || (take == Take::masked && !masked))
-            continue;
-        state.cullBack = cullBackFaces && !material.doubleSided;
-        state.apply();
-        if (take != Take::opaque)
-            bindMaterial(program, material);
-        geometry_.draw(mesh.firstIndex, mesh.indexCount);
+        features_.push_back(featuresOf(scene, mesh));
+        kinds_.insert(features_.back());
+        emits_ = emits_ || materials_[static_cast<std::size_t>(mesh.material)].emits();
     }
 }
 
-gl::ShaderText DepthPass::fragmentShader(bool masked) {
+const gl::Texture& GpuScene::texture(const TextureUse& use) const {
+    return use.exists() ? textures_[static_cast<std::size_t>(use.texture)] : white_;
+}
+
+namespace {
+
+void set(const gl::Program& program, const char* name, const glm::vec4& value) {
+    program.set(name, std::span<const float, 4>(glm::value_ptr(value), 4));
+}
+
+void setTransform(const gl::Program& program, int map, const TextureUse& use) {
+    const glm::mat2 m = use.matrix();
+    const glm::vec3 offset(use.offset, use.set);
+    set(program, fmt::format("mapMatrix[{}]", map).c_str(), {m[0], m[1]});
+    program.set(fmt::format("mapOffset[{}]", map).c_str(),
+                std::span<const float, 3>(glm::value_ptr(offset), 3));
+}
+
+} // namespace
+
+void GpuScene::bindMaterial(const gl::Program& program, const Material& material,
+                            const MaterialFeatures& features, Reads reads) const {
+    const TextureUse* maps[] = {&material.baseColourTexture, &material.normalTexture,
+                                &material.metallicRoughnessTexture, &material.emissionTexture};
+    for (int map = 0; map < mapsOf(reads); ++map) {
+        gl::bindTexture(map, texture(*maps[map]));
+        if (features.transformed)
+            setTransform(program, map, *maps[map]);
+    }
+    set(program, "baseColour", material.baseColour);
+    set(program, "surface",
+        {material.alphaCutoff, material.metallic, material.roughness,
+         material.normalTexture.exists() ? material.normalScale : 0.0f});
+    if (reads == Reads::forDepth)
+        return;
+    if (const auto& glossy = material.specularGlossiness)
+        set(program, "specularGlossiness", {glossy->specular, glossy->glossiness});
+    if (reads == Reads::withEmission)
+        set(program, "emission", {material.emission, material.unlit ? 1 : 0});
+}
+
+void GpuScene::drawMesh(std::size_t index, bool cullBackFaces, gl::State& state) const {
+    const Mesh& mesh = meshes_[index];
+    state.cullBack =
+        cullBackFaces && !materials_[static_cast<std::size_t>(mesh.material)].doubleSided;
+    state.apply();
+    geometry_.draw(mesh.firstIndex, mesh.indexCount);
+}
+
+void GpuScene::draw(const gl::Program& program, const MaterialFeatures& features, Reads reads,
+                    bool cullBackFaces, gl::State state) const {
+    program.use();
+    geometry_.bind();
+    for (std::size_t i = 0; i < meshes_.size(); ++i)
+        if (features_[i] == features) {
+            bindMaterial(program, materials_[static_cast<std::size_t>(meshes_[i].material)],
+                         features, reads);
+            drawMesh(i, cullBackFaces, state);
+        }
+}
+
+void GpuScene::drawOpaque(const gl::Program& program, bool cullBackFaces, gl::State state) const {
+    program.use();
+    geometry_.bind();
+    for (std::size_t i = 0; i < meshes_.size(); ++i)
+        if (!features_[i].masked)
+            drawMesh(i, cullBackFaces, state);
+}
+
+namespace {
+
+gl::ShaderText materialShader(const std::string& name, const MaterialFeatures& features,
+                              GpuScene::Reads reads) {
     gl::ShaderText text;
-    text.add(masked ? "#define MASKED 1" : "#define MASKED 0", "(variant)");
-    text.addFile(shaderFolder(), "depth_only.frag");
+    text.add(fmt::format("#define MASKED {:d}\n#define TRANSFORMED {:d}\n#define COLOURED {:d}\n"
+                         "#define GLOSSINESS {:d}\n#define EMISSION {:d}\n#define MAPS {}\n",
+                         features.masked, features.transformed, features.coloured,
+                         features.glossiness, reads == GpuScene::Reads::withEmission,
+                         mapsOf(reads)),
+             "(variant)");
+    addFrameBlock(text);
+    text.addFile(shaderFolder(), name);
     return text;
 }
 
+gl::Program materialProgram(const std::string& label, const std::string& vertex,
+                            const std::string& fragment, const MaterialFeatures& features,
+                            GpuScene::Reads reads) {
+    return gl::Program(label, materialShader(vertex, features, reads),
+                       materialShader(fragment, features, reads));
+}
+
+} // namespace
+
+std::string gbufferShaders() {
+    std::string texts;
+    for (const char* name : {"depth_only.vert", "depth_only.frag", "gbuffer.vert", "gbuffer.frag"})
+        texts +=
+            materialShader(name, {true, true, true, true}, GpuScene::Reads::withEmission).text();
+    return texts;
+}
+
 DepthPass::DepthPass()
-    : opaque_("depth of opaque", shaderText("depth_only.vert"), fragmentShader(false)),
-      masked_("depth of masked", shaderText("depth_only.vert"), fragmentShader(true)) {}
+    : opaque_(materialProgram("depth of opaque", "depth_only.vert", "depth_only.frag", {},
+                              GpuScene::Reads::forDepth)) {}
+
+const gl::Program& DepthPass::masked(const MaterialFeatures& features) const {
+    const MaterialFeatures alpha{true, features.transformed, features.coloured, false};
+    const auto known = masked_.find(alpha);
+    return known != masked_.end()
+               ? known->second
+               : masked_
+                     .emplace(alpha,
+                              materialProgram("depth of masked", "depth_only.vert",
+                                              "depth_only.frag", alpha, GpuScene::Reads::forDepth))
+                     .first->second;
+}
 
 void DepthPass::draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool cullBackFaces,
                      const gl::State& state) const {
-    for (const gl::Program* program : {&opaque_, &masked_}) {
-        program->setMatrix("clipFromWorld",
-                           std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
-        scene.draw(*program, program == &opaque_ ? GpuScene::Take::opaque : GpuScene::Take::masked,
-                   cullBackFaces, state);
-    }
+    const auto see = [&](const gl::Program& program) -> const gl::Program& {
+        program.setMatrix("clipFromWorld",
+                          std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
+        return program;
+    };
+    scene.drawOpaque(see(opaque_), cullBackFaces, state);
+    for (const MaterialFeatures& features : scene.features())
+        if (features.masked)
+            scene.draw(see(masked(features)), features, GpuScene::Reads::forDepth, cullBackFaces,
+                       state);
 }
 
 namespace {
@@ -146,8 +266,8 @@ std::vector<gl::Format> gbufferFormats(const GBufferContent& content) {
     const bool mapped = content.occlusionNormal == Normals::mapped;
     std::vector<Format> formats{content.albedo ? Format::srgb8 : Format::none, Format::r32f,
                                 content.shadingNormal || mapped ? Format::rgba16f : Format::none,
-                                content.occlusionNormal && !mapped ? Format::rgba16f
-                                                                   : Format::none};
+                                content.occlusionNormal && !mapped ? Format::rgba16f : Format::none,
+                                content.emission ? Format::rgba16f : Format::none};
     while (formats.back() == Format::none)
         formats.pop_back();
     return formats;
@@ -168,21 +288,40 @@ const gl::Texture* GBuffer::occlusionNormal() const {
     return &target_.colour(*content_.occlusionNormal == Normals::mapped ? 2 : 3);
 }
 
+const gl::Texture* GBuffer::emission() const {
+    return target_.has(4) ? &target_.colour(4) : nullptr;
+}
+
 gl::UniformBuffer frameBuffer(const Frame& frame) {
     return gl::UniformBuffer(std::as_bytes(std::span(&frame, 1)));
 }
 
 void bindFrame(const gl::UniformBuffer& frame) { frame.bind(0); }
 
-GBufferPass::GBufferPass()
-    : program_("G-buffer", shaderText("gbuffer.vert"), shaderText("gbuffer.frag")) {}
+// The plain one at once, for most scenes need no other.
+GBufferPass::GBufferPass() { program({}, false); }
+
+const gl::Program& GBufferPass::program(const MaterialFeatures& features, bool emission) const {
+    const std::pair key(
+        MaterialFeatures{false, features.transformed, features.coloured, features.glossiness},
+        emission);
+    const auto known = programs_.find(key);
+    return known != programs_.end()
+               ? known->second
+               : programs_
+                     .emplace(key,
+                              materialProgram("G-buffer", "gbuffer.vert", "gbuffer.frag", key.first,
+                                              emission ? GpuScene::Reads::withEmission
+                                                       : GpuScene::Reads::withoutEmission))
+                     .first->second;
+}
 
 void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer& gbuffer) const {
     const gl::Target& target = gbuffer.target();
     target.bind();
     gl::State{}.apply();
     const std::array<float, 4> empty[] = {
-        {0, 0, 0, 0}, {frame.depth.y, 0, 0, 0}, {0, 0, 1, 1}, {0, 0, 1, 1}};
+        {0, 0, 0, 0}, {frame.depth.y, 0, 0, 0}, {0, 0, 1, 1}, {0, 0, 1, 1}, {0, 0, 0, 0}};
     for (int i = 0; i < target.count(); ++i)
         if (target.has(i))
             target.clear(i, empty[i]);
@@ -195,10 +334,16 @@ void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer&
     depth_.draw(scene, clipFromWorld, true, state);
     state.depth = gl::State::Depth::equal;
     state.colour = true;
-    program_.set("faceNormals", gbuffer.content().occlusionNormal == Normals::face ? 1 : 0);
-    program_.setMatrix("clipFromWorld",
-                       std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
-    scene.draw(program_, GpuScene::Take::all, true, state);
+    const bool emission = gbuffer.content().emission;
+    for (const MaterialFeatures& features : scene.features()) {
+        const gl::Program& drawn = program(features, emission);
+        drawn.set("faceNormals", gbuffer.content().occlusionNormal == Normals::face ? 1 : 0);
+        drawn.setMatrix("clipFromWorld",
+                        std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
+        scene.draw(drawn, features,
+                   emission ? GpuScene::Reads::withEmission : GpuScene::Reads::withoutEmission,
+                   true, state);
+    }
 }
 
 std::filesystem::path shaderFolder() {
@@ -208,8 +353,7 @@ std::filesystem::path shaderFolder() {
 
 gl::ShaderText shaderText(const std::string& name) {
     gl::ShaderText text;
-    text.addFile(shaderFolder(), "frame.h");
-    text.add("layout(std140, binding = 0) uniform FrameBlock { Frame frame; };", "(frame block)");
+    addFrameBlock(text);
     text.addFile(shaderFolder(), name);
     return text;
 }

@@ -7,7 +7,11 @@
 #include "renderer/scene/scene.h"
 #include "renderer/shaders/frame.h"
 
+#include <compare>
+#include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace obscura {
 
@@ -21,26 +25,52 @@ Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bound
 // In a scene that is less than 1 m across it is a twentieth of the scene's diagonal.
 double nearPlane(const Camera& camera, const Bounds& bounds);
 
+// What a mesh's material asks of shaders beyond the plain ones (shaders/material.glsl). Each
+// combination has programs of its own, compiled when it is first met, so that a scene pays for
+// nothing that it does not have.
+struct MaterialFeatures {
+    bool masked = false;      // has holes
+    bool transformed = false; // not all its textures read Vertex::uv as it is
+    bool coloured = false;    // by its vertices
+    bool glossiness = false;  // specular-glossiness in place of metallic-roughness
+
+    auto operator<=>(const MaterialFeatures&) const = default;
+};
+
 // A scene in the GPU's memory.
 class GpuScene {
   public:
     explicit GpuScene(const Scene& scene);
 
     const Bounds& bounds() const { return bounds_; }
-    // Which materials a draw() takes, and whether it skips back faces that cannot be seen (those of
-    // materials that are not double-sided).
-    enum class Take { all, opaque, masked };
-    // The program must read shaders/material.glsl, unless it draws nothing but the depth of opaque
-    // materials.
-    void draw(const gl::Program& program, Take take, bool cullBackFaces, gl::State state) const;
+    // Those of its meshes, each once.
+    const std::set<MaterialFeatures>& features() const { return kinds_; }
+    // Whether anything shows light of its own, so that a G-buffer should hold emission.
+    bool emits() const { return emits_; }
+    const std::vector<PointLight>& lights() const { return lights_; }
+
+    // The meshes that have these features, by a program of shaders/material.glsl: `forDepth` reads
+    // nothing but alpha, `withEmission` the emission too. Back faces that cannot be seen, those of
+    // materials that are not double-sided, may be left out.
+    enum class Reads { forDepth, withoutEmission, withEmission };
+    void draw(const gl::Program& program, const MaterialFeatures& features, Reads reads,
+              bool cullBackFaces, gl::State state) const;
+    // All that have no holes, by a program that reads nothing of their materials.
+    void drawOpaque(const gl::Program& program, bool cullBackFaces, gl::State state) const;
 
   private:
-    const gl::Texture& texture(int index) const;
-    void bindMaterial(const gl::Program& program, const Material& material) const;
+    const gl::Texture& texture(const TextureUse& use) const;
+    void bindMaterial(const gl::Program& program, const Material& material,
+                      const MaterialFeatures& features, Reads reads) const;
+    void drawMesh(std::size_t index, bool cullBackFaces, gl::State& state) const;
 
     Bounds bounds_;
     std::vector<Mesh> meshes_;
+    std::vector<MaterialFeatures> features_; // of each mesh
+    std::set<MaterialFeatures> kinds_;
+    bool emits_ = false;
     std::vector<Material> materials_;
+    std::vector<PointLight> lights_;
     gl::Geometry geometry_;
     std::vector<gl::Texture> textures_;
     gl::Texture white_;
@@ -51,6 +81,7 @@ struct GBufferContent {
     bool albedo = true;
     bool shadingNormal = false;             // with the normal map
     std::optional<Normals> occlusionNormal; // for techniques and references
+    bool emission = false;                  // for the composite, where GpuScene::emits()
 };
 
 // What is seen at each pixel. View space as in shaders/view.glsl. Buffers that were not asked for
@@ -61,13 +92,15 @@ class GBuffer {
 
     const gl::Target& target() const { return target_; }
     const GBufferContent& content() const { return content_; }
-    // sRGB; alpha: specular intensity.
+    // Base colour, sRGB; alpha: metallic. Both are 0 and 1 where the material is unlit.
     const gl::Texture& albedo() const { return target_.colour(0); }
     // Linear view depth, metres.
     const gl::Texture& depth() const { return target_.colour(1); }
     // View-space unit vectors; null where there is none.
-    const gl::Texture* shadingNormal() const; // alpha: specular power
+    const gl::Texture* shadingNormal() const; // alpha: roughness
     const gl::Texture* occlusionNormal() const;
+    // Linear radiance that surfaces send by themselves; null where it was not asked for.
+    const gl::Texture* emission() const;
 
   private:
     GBufferContent content_;
@@ -86,10 +119,11 @@ class DepthPass {
     void draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool cullBackFaces,
               const gl::State& state) const;
 
-    static gl::ShaderText fragmentShader(bool masked);
-
   private:
-    gl::Program opaque_, masked_;
+    const gl::Program& masked(const MaterialFeatures& features) const;
+
+    gl::Program opaque_;
+    mutable std::map<MaterialFeatures, gl::Program> masked_; // by features that decide alpha
 };
 
 class GBufferPass {
@@ -99,9 +133,15 @@ class GBufferPass {
     void draw(const GpuScene& scene, const Frame& frame, const GBuffer& gbuffer) const;
 
   private:
+    const gl::Program& program(const MaterialFeatures& features, bool emission) const;
+
     DepthPass depth_;
-    gl::Program program_;
+    mutable std::map<std::pair<MaterialFeatures, bool>, gl::Program> programs_;
 };
+
+// The texts of all shaders that draw a G-buffer, for recipes: every variant is one of them with
+// other constants at its head.
+std::string gbufferShaders();
 
 // The text of shaders/NAME with the frame block in front.
 gl::ShaderText shaderText(const std::string& name);

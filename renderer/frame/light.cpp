@@ -20,70 +20,7 @@ std::span<const float, 3> span3(const glm::vec3& v) {
     return std::span<const float, 3>(glm::value_ptr(v), 3);
 }
 
-// World direction of a panorama's pixel centre. The sphere's area per pixel falls with its sine.
-glm::dvec3 panoramaDirection(double u, double v) {
-    const double longitude = (u - 0.5) * 2 * pi, colatitude = v * pi;
-    return {std::sin(colatitude) * std::sin(longitude), std::cos(colatitude),
-            -std::sin(colatitude) * std::cos(longitude)};
-}
-
-// Real spherical harmonics, orders 0 to 2, in the order of shaders/light.frag.
-std::array<double, 9> basis(const glm::dvec3& d) {
-    return {0.282095,
-            0.488603 * d.y,
-            0.488603 * d.z,
-            0.488603 * d.x,
-            1.092548 * d.x * d.y,
-            1.092548 * d.y * d.z,
-            0.315392 * (3 * d.z * d.z - 1),
-            1.092548 * d.x * d.z,
-            0.546274 * (d.x * d.x - d.y * d.y)};
-}
-
 } // namespace
-
-Image skyPanorama(const Sky& sky) {
-    Image image{256, 128, 3, std::vector<float>(256 * 128 * 3)};
-    for (int y = 0; y < image.height; ++y) {
-        const double elevation = 90 - 180 * (y + 0.5) / image.height; // degrees
-        // Haze: the horizon's colour fades upwards within some thirty degrees, into the ground
-        // within a few.
-        const double up = 1 - std::exp(-std::max(elevation, 0.0) / 20);
-        const double down = std::clamp(-elevation / 4, 0.0, 1.0);
-        const glm::dvec3 colour = glm::mix(glm::mix(vec(sky.horizon), vec(sky.zenith), up),
-                                           vec(sky.ground), down * down * (3 - 2 * down));
-        for (int x = 0; x < image.width; ++x)
-            for (int c = 0; c < 3; ++c)
-                image.at(x, y, c) = static_cast<float>(colour[c]);
-    }
-    return image;
-}
-
-Irradiance irradianceOf(const Image& panorama) {
-    std::array<glm::dvec3, 9> sums{};
-    for (int y = 0; y < panorama.height; ++y) {
-        const double v = (y + 0.5) / panorama.height;
-        const double area = 2 * pi * pi * std::sin(v * pi) /
-                            (static_cast<double>(panorama.width) * panorama.height);
-        for (int x = 0; x < panorama.width; ++x) {
-            const auto value = basis(panoramaDirection((x + 0.5) / panorama.width, v));
-            const glm::dvec3 radiance(panorama.at(x, y, 0), panorama.at(x, y, 1),
-                                      panorama.at(x, y, 2));
-            for (std::size_t i = 0; i < 9; ++i)
-                sums[i] += radiance * (value[i] * area);
-        }
-    }
-    // Ramamoorthi and Hanrahan 2001, equation 9: the cosine lobe's own coefficients.
-    const double lobe[3] = {pi, 2 * pi / 3, pi / 4};
-    Irradiance result;
-    for (std::size_t i = 0; i < 9; ++i)
-        for (int c = 0; c < 3; ++c)
-            result[i][static_cast<std::size_t>(c)] =
-                static_cast<float>(sums[i][c] * lobe[i == 0  ? 0
-                                                     : i < 4 ? 1
-                                                             : 2]);
-    return result;
-}
 
 glm::vec3 directionOf(const Sun& sun) {
     const double azimuth = glm::radians(sun.azimuthDegrees),
@@ -130,9 +67,10 @@ LightBuffers::LightBuffers(int width, int height, bool direct)
 gl::ShaderText lightShader(const Level& level) {
     gl::ShaderText text;
     // Parts of the shader that a level does not need, and the buffers they read, do not exist.
-    text.add(fmt::format("#define CONSTANT_AMBIENT {:d}\n#define SUN {:d}\n",
-                         level.ambient.has_value(), level.sun.has_value()),
-             "(level)");
+    text.add(
+        fmt::format("#define CONSTANT_AMBIENT {:d}\n#define SUN {:d}\n#define SCENE_LIGHTS {:d}\n",
+                    level.ambient.has_value(), level.sun.has_value(), level.sceneLights),
+        "(level)");
     text.addFile(shaderFolder(), "frame.h");
     text.add("layout(std140, binding = 0) uniform FrameBlock { Frame frame; };", "(frame block)");
     text.addFile(shaderFolder(), "light.frag");
@@ -140,6 +78,8 @@ gl::ShaderText lightShader(const Level& level) {
 }
 
 namespace {
+
+constexpr int sceneLightsBinding = 5; // as in shaders/light.frag
 
 // Empty with constant ambient light.
 Image panoramaOf(const Level& level, const std::filesystem::path& environment) {
@@ -163,6 +103,29 @@ gl::UniformBuffer environmentBlock(const Irradiance& irradiance) {
     return gl::UniformBuffer(std::as_bytes(std::span(block)));
 }
 
+// As shaders/light.frag has them: position, and 0 for a directional one; where the light goes, and
+// the range; intensity; the spot's falloff, scale x cosine + offset (KHR_lights_punctual).
+gl::UniformBuffer lightsBlock(const std::vector<PointLight>& lights) {
+    std::vector<std::array<glm::vec4, 4>> block(std::max<std::size_t>(lights.size(), 1));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const PointLight& light = lights[i];
+        const bool spot = light.kind == PointLight::Kind::spot;
+        const float scale =
+            spot ? 1 / std::max(0.001f, light.innerCosine - light.outerCosine) : 0.0f;
+        block[i] = {glm::vec4(light.position, light.kind == PointLight::Kind::directional ? 0 : 1),
+                    glm::vec4(light.direction, light.range), glm::vec4(light.intensity, 0),
+                    glm::vec4(scale, spot ? -light.outerCosine * scale : 1, 0, 0)};
+    }
+    return gl::UniformBuffer(std::as_bytes(std::span(block)), gl::UniformBuffer::Kind::storage);
+}
+
+gl::Texture filteredTexture(std::span<const Image> images) {
+    std::vector<gl::FloatLevel> levels;
+    for (const Image& image : images)
+        levels.push_back({image.width, image.height, image.pixels});
+    return gl::filteredTexture(levels);
+}
+
 } // namespace
 
 Lighting::Lighting(const Level& level, const GpuScene& scene,
@@ -180,8 +143,14 @@ Lighting::Lighting(const Level& level, const GpuScene& scene, const Image& panor
         program_.set("ambient", span3(glm::vec3(vec(*level.ambient))));
         program_.set("background", span3(glm::vec3(vec(level.background))));
     } else {
-        panorama_ = gl::panoramaTexture(panorama.width, panorama.height, panorama.pixels);
+        const Reflections reflections = reflectionsOf(panorama);
+        panorama_ = filteredTexture(reflections.levels);
+        reflectance_ = filteredTexture(std::span(&reflectanceTable(), 1));
+        program_.set("sharpLevel", static_cast<float>(reflections.sharp));
+        program_.set("roughLevel", static_cast<float>(reflections.levels.size() - 1));
     }
+    if (level.sceneLights)
+        sceneLights_ = lightsBlock(scene.lights());
     if (level.sun) {
         program_.set("sunDirection", span3(directionOf(*level.sun)));
         program_.set("sunIrradiance", span3(glm::vec3(vec(level.sun->irradiance))));
@@ -199,9 +168,13 @@ void Lighting::draw(const GBuffer& gbuffer, const LightBuffers& light) const {
     gl::bindTexture(1, gbuffer.depth());
     if (readsNormals())
         gl::bindTexture(2, *gbuffer.shadingNormal());
-    if (panorama_)
+    if (panorama_) {
         gl::bindTexture(3, panorama_);
+        gl::bindTexture(5, reflectance_);
+    }
     environment_.bind(3);
+    if (sceneLights_)
+        sceneLights_->bind(sceneLightsBinding);
     if (shadow_)
         gl::bindTexture(4, shadow_->depth());
     triangle_.draw();

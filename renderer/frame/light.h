@@ -2,22 +2,12 @@
 
 #include "image/image.h"
 #include "renderer/frame/gbuffer.h"
+#include "renderer/frame/panorama.h"
 
-#include <array>
 #include <filesystem>
 #include <optional>
 
 namespace obscura {
-
-// Light from everywhere around the scene: an equirectangular panorama of radiance, 3 channels, top
-// row at the zenith, its centre column towards -z, +x to the right of it.
-Image skyPanorama(const Sky& sky);
-
-// Irradiance as nine coefficients of the real spherical harmonics of orders 0 to 2, each an RGB
-// triple, already convolved with the cosine lobe (Ramamoorthi and Hanrahan 2001): the irradiance
-// on a surface with world normal n is the sum of coefficient times basis function at n.
-using Irradiance = std::array<std::array<float, 3>, 9>;
-Irradiance irradianceOf(const Image& panorama);
 
 glm::vec3 directionOf(const Sun& sun); // towards the sun, world space
 
@@ -37,26 +27,29 @@ class ShadowMap {
 };
 
 // The light that leaves each pixel towards the camera, in scene-linear radiance, split because
-// occlusion multiplies the first part only.
+// occlusion multiplies the first part only: what comes from everywhere around, scattered and
+// mirrored alike.
 class LightBuffers {
   public:
     LightBuffers(int width, int height, bool direct);
     const gl::Target& target() const { return target_; }
     const gl::Texture& ambient() const { return target_.colour(0); } // and the background
-    const gl::Texture& direct() const { return target_.count() > 1 ? target_.colour(1) : none_; }
+    bool hasDirect() const { return target_.count() > 1; }
+    const gl::Texture& direct() const { return hasDirect() ? target_.colour(1) : none_; }
 
   private:
     gl::Target target_;
     gl::Texture none_; // black
 };
 
-// A level's lighting, ready to draw. `environment` is the level's panorama file; unused otherwise.
+// A level's lighting, ready to draw; what surfaces of each roughness reflect is filtered here,
+// once. `environment` is the level's panorama file; unused otherwise.
 class Lighting {
   public:
     Lighting(const Level& level, const GpuScene& scene, const std::filesystem::path& environment);
 
-    bool readsNormals() const { return !level_.ambient || level_.sun; }
-    bool hasDirect() const { return level_.sun.has_value(); }
+    bool readsNormals() const { return !level_.ambient || hasDirect(); }
+    bool hasDirect() const { return level_.sun || level_.sceneLights; }
     // Irradiance for shaders/environment.glsl.
     const gl::UniformBuffer& environment() const { return environment_; }
     // The frame must be bound.
@@ -66,8 +59,10 @@ class Lighting {
     explicit Lighting(const Level& level, const GpuScene& scene, const Image& panorama);
 
     Level level_;
-    gl::Texture panorama_; // empty where ambient light is constant
+    gl::Texture panorama_; // its levels are Reflections; empty where ambient light is constant
+    gl::Texture reflectance_; // reflectanceTable(), beside it
     gl::UniformBuffer environment_;
+    std::optional<gl::UniformBuffer> sceneLights_;
     std::optional<ShadowMap> shadow_;
     gl::Program program_;
     gl::ScreenTriangle triangle_;

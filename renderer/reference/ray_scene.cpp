@@ -78,18 +78,21 @@ struct AlphaMap {
 
 // The triangles of a masked material.
 struct Cutout {
-    const AlphaMap* map = nullptr; // null: alpha is the factor alone
-    float factor = 1, cutoff = 0;
+    // What decides on a hole, at one corner: place on the map, and alpha of vertex and material.
+    struct Corner {
+        glm::vec2 uv;
+        float alpha;
+    };
+    const AlphaMap* map = nullptr; // null: alpha is the corners' alone
+    float cutoff = 0;
     std::vector<std::uint32_t> indices;
-    std::vector<glm::vec2> uvs; // one for each index
+    std::vector<Corner> corners; // one for each index
 
     bool hole(std::uint32_t triangle, float u, float v) const {
-        if (!map)
-            return factor < cutoff;
-        const std::size_t first = 3 * static_cast<std::size_t>(triangle);
-        return factor *
-                   map->at((1 - u - v) * uvs[first] + u * uvs[first + 1] + v * uvs[first + 2]) <
-               cutoff;
+        const Corner* corner = &corners[3 * static_cast<std::size_t>(triangle)];
+        const Corner &a = corner[0], &b = corner[1], &c = corner[2];
+        const float w = 1 - u - v, alpha = w * a.alpha + u * b.alpha + v * c.alpha;
+        return alpha * (map ? map->at(w * a.uv + u * b.uv + v * c.uv) : 1.0f) < cutoff;
     }
 };
 
@@ -137,16 +140,18 @@ void RayScene::State::sort(const Scene& from) {
             continue;
         }
         Cutout& cutout = cutouts[mesh.material];
-        cutout.factor = material.baseColour.a;
         cutout.cutoff = material.alphaCutoff;
-        if (const int index = material.baseColourTexture; index >= 0) {
-            if (!maps.contains(index))
-                maps[index] = alphaMap(from.textures[static_cast<std::size_t>(index)]);
-            cutout.map = &maps[index];
+        const TextureUse& use = material.baseColourTexture;
+        if (use.exists()) {
+            if (!maps.contains(use.texture))
+                maps[use.texture] = alphaMap(from.textures[static_cast<std::size_t>(use.texture)]);
+            cutout.map = &maps[use.texture];
         }
         cutout.indices.insert(cutout.indices.end(), first, first + mesh.indexCount);
-        for (std::uint32_t i = 0; i < mesh.indexCount; ++i)
-            cutout.uvs.push_back(from.vertices[first[i]].uv);
+        for (std::uint32_t i = 0; i < mesh.indexCount; ++i) {
+            const Vertex& vertex = from.vertices[first[i]];
+            cutout.corners.push_back({use.at(vertex), material.baseColour.a * vertex.colour.a});
+        }
     }
 }
 

@@ -9,11 +9,13 @@ namespace obscura {
 
 // A scene's triangles where Embree can find them: robust intersection, static high-quality build.
 // Both sides of a triangle are met. Masked materials have the rasteriser's holes: alpha of level 0
-// of the base colour map, filtered and wrapped as OpenGL does it, times the base colour's, below
-// the cutoff. (The rasteriser's distant pixels read coarser levels; rays have no distance.)
+// of the base colour map, filtered and wrapped as OpenGL does it, times the base colour's and the
+// vertices', below the cutoff. (The rasteriser's distant pixels read coarser levels; rays have no
+// distance.)
 class RayScene {
   public:
-    // Copies positions, indices, and of masked materials texture coordinates and 8-bit alpha.
+    // Copies positions, indices, and of masked materials texture coordinates, vertex alpha and
+    // 8-bit alpha of the map.
     explicit RayScene(const Scene& scene);
     ~RayScene();
     RayScene(RayScene&&) noexcept;

@@ -23,15 +23,6 @@ const std::array<std::string, 5> channelNames{"V", "error", "bentNormal.x", "ben
 // Doubles as hexadecimal digits: exact.
 std::string spelt(const Vec3& v) { return fmt::format("{:a} {:a} {:a}", v[0], v[1], v[2]); }
 
-std::string shaders() {
-    std::string text;
-    for (const char* name : {"depth_only.vert", "gbuffer.vert", "gbuffer.frag"})
-        text += shaderText(name).text();
-    for (const bool masked : {false, true})
-        text += DepthPass::fragmentShader(masked).text();
-    return text;
-}
-
 // `count` channels of an image, from the first on.
 Image channels(const Image& image, int first, int count) {
     Image result{image.width, image.height, count, {}};
@@ -66,7 +57,7 @@ std::string referenceKey(const ReferenceInputs& inputs) {
         camera.fovDegrees, camera.near, inputs.width, inputs.height, inputs.jitter.x,
         inputs.jitter.y, static_cast<int>(inputs.normals), static_cast<int>(settings.integral),
         settings.radius, rays, settings.seed, settings.sameRays, inputs.code, rayTracerVersion(),
-        shaders());
+        gbufferShaders());
     return sha256(text);
 }
 

@@ -184,7 +184,7 @@ class Loader {
                           : skinned(file_, primitive,
                                     jointsOf(file_, model_, node.skin, worldFromNode_), used);
         if (primitive.material() >= 0)
-            pose.coordinates = {materials_.coordinates(primitive.material()), 1};
+            pose.coordinates = materials_.coordinates(primitive.material());
         const auto warner = [this](const std::string& message) { warn(message); };
         readVertices(file_, primitive, used, pose, warner, piece);
         // A mirrored mesh turns its triangles.
@@ -209,14 +209,29 @@ class Loader {
         return defaultMaterial_;
     }
 
+    // Whether the material stays as it is when Vertex::uv is moved by whole periods along u, and
+    // along v: all its textures repeat there, and none is scaled or turned.
+    std::pair<bool, bool> repeats(const Material& material) const {
+        std::pair<bool, bool> result(false, false);
+        bool first = true;
+        for (const TextureUse& use : {material.baseColourTexture, material.normalTexture,
+                                      material.metallicRoughnessTexture, material.emissionTexture})
+            if (use.exists() && use.set == 0) {
+                const Texture& texture = scene_.textures[static_cast<std::size_t>(use.texture)];
+                const auto along = [&](bool before, Wrap wrap) {
+                    return (first || before) && wrap != Wrap::clamp && use.plain();
+                };
+                result = {along(result.first, texture.wrapU), along(result.second, texture.wrapV)};
+                first = false;
+            }
+        return result;
+    }
+
     void append(const GltfPrimitive& primitive, Piece piece) {
         const int index = materialOf(primitive);
         const Material& material = scene_.materials[static_cast<std::size_t>(index)];
-        if (material.baseColourTexture >= 0) {
-            const Texture& texture =
-                scene_.textures[static_cast<std::size_t>(material.baseColourTexture)];
-            recentre(piece, texture.wrapU != Wrap::clamp, texture.wrapV != Wrap::clamp);
-        }
+        const auto [alongU, alongV] = repeats(material);
+        recentre(piece, alongU, alongV);
         const auto firstVertex = static_cast<std::uint32_t>(scene_.vertices.size());
         const Mesh mesh{static_cast<std::uint32_t>(scene_.indices.size()),
                         static_cast<std::uint32_t>(piece.corners.size()), index};
@@ -225,7 +240,7 @@ class Loader {
             scene_.indices.push_back(firstVertex + corner);
         if (mesh.indexCount > 0)
             scene_.meshes.push_back(mesh);
-        if (material.normalTexture < 0)
+        if (!material.normalTexture.exists())
             return;
         if (!primitive.has("TANGENT"))
             deriveTangents(scene_, mesh);

@@ -49,10 +49,45 @@ class Checker : private GltfJson {
         const json* info = object(parent, key, at);
         if (!info)
             return;
-        index(*info, "index", join(at, key), "textures", true);
-        whole(*info, "texCoord", join(at, key), 0, 31);
-        number(*info, "scale", join(at, key), -1e6, 1e6);
-        number(*info, "strength", join(at, key), -1e6, 1e6);
+        const std::string within = join(at, key);
+        index(*info, "index", within, "textures", true);
+        whole(*info, "texCoord", within, 0, 31);
+        number(*info, "scale", within, -1e6, 1e6);
+        number(*info, "strength", within, -1e6, 1e6);
+        if (const json* transform = extension(*info, "KHR_texture_transform", within))
+            checkTransform(*transform, extensionPath(within, "KHR_texture_transform"));
+    }
+    void checkTransform(const json& transform, const std::string& at) const {
+        vector(transform, "offset", at, 2, -1e6, 1e6);
+        vector(transform, "scale", at, 2, -1e6, 1e6);
+        number(transform, "rotation", at, -1e6, 1e6);
+        whole(transform, "texCoord", at, 0, 31);
+    }
+
+    // So many numbers, each within bounds.
+    void vector(const json& object, const char* key, const std::string& at, std::size_t count,
+                double least, double most) const {
+        for (const double each : numbers(object, key, at, count))
+            if (each < least || each > most)
+                wrong(join(at, key), format("numbers from {:g} to {:g}", least, most),
+                      object.at(key));
+    }
+
+    void checkGlossiness(const json& glossy, const std::string& at) const {
+        vector(glossy, "diffuseFactor", at, 4, -1e6, 1e6);
+        vector(glossy, "specularFactor", at, 3, 0, 1);
+        number(glossy, "glossinessFactor", at, 0, 1);
+        for (const char* key : {"diffuseTexture", "specularGlossinessTexture"})
+            checkTextureInfo(glossy, key, at);
+    }
+    void checkMaterialExtensions(const json& material, const std::string& at) const {
+        extension(material, "KHR_materials_unlit", at);
+        const char* name = "KHR_materials_emissive_strength";
+        if (const json* strong = extension(material, name, at))
+            number(*strong, "emissiveStrength", extensionPath(at, name), 0, 1e6);
+        name = "KHR_materials_pbrSpecularGlossiness";
+        if (const json* glossy = extension(material, name, at))
+            checkGlossiness(*glossy, extensionPath(at, name));
     }
 
     void checkMaterial(const json& material, const std::string& at) const {
@@ -60,14 +95,15 @@ class Checker : private GltfJson {
         oneOf(material, "alphaMode", at, {"OPAQUE", "MASK", "BLEND"});
         number(material, "alphaCutoff", at, 0, 1e6);
         flag(material, "doubleSided", at);
-        numbers(material, "emissiveFactor", at, 3);
+        vector(material, "emissiveFactor", at, 3, 0, 1e6);
         for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
             checkTextureInfo(material, key, at);
+        checkMaterialExtensions(material, at);
         const json* pbr = object(material, "pbrMetallicRoughness", at);
         if (!pbr)
             return;
         const std::string within = join(at, "pbrMetallicRoughness");
-        numbers(*pbr, "baseColorFactor", within, 4);
+        vector(*pbr, "baseColorFactor", within, 4, -1e6, 1e6);
         number(*pbr, "metallicFactor", within, 0, 1);
         number(*pbr, "roughnessFactor", within, 0, 1);
         for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"})

@@ -17,10 +17,32 @@ Bounds Scene::bounds() const {
     return result;
 }
 
+bool TextureUse::plain() const { return *this == TextureUse{.texture = texture}; }
+
+// Turned as the example of KHR_texture_transform needs it: with an offset of (0, 1), a scale of a
+// half and a quarter turn, it shows the lower left quadrant of the image. (The matrix printed there
+// turns the other way, but three.js and the sample model's markers agree with the example.)
+glm::mat2 TextureUse::matrix() const {
+    const float c = std::cos(rotation), s = std::sin(rotation);
+    return glm::mat2(c, -s, s, c) * glm::mat2(scale.x, 0, 0, scale.y);
+}
+
+glm::vec2 TextureUse::at(const Vertex& vertex) const {
+    return matrix() * (set == 0 ? vertex.uv : vertex.uv1) + offset;
+}
+
+bool Material::emits() const { return unlit || emission.r > 0 || emission.g > 0 || emission.b > 0; }
+
 void deriveTangents(Scene& scene, const Mesh& mesh) {
     const auto indices = std::span(scene.indices).subspan(mesh.firstIndex, mesh.indexCount);
     if (indices.empty())
         return;
+    const TextureUse use =
+        scene.materials.empty()
+            ? TextureUse{}
+            : scene.materials[static_cast<std::size_t>(mesh.material)].normalTexture;
+    const glm::mat2 turn = use.matrix();
+    const auto uv = use.set == 0 ? &Vertex::uv : &Vertex::uv1;
     const auto [least, greatest] = std::minmax_element(indices.begin(), indices.end());
     struct Sum {
         glm::vec3 alongU{0}, alongV{0};
@@ -32,7 +54,7 @@ void deriveTangents(Scene& scene, const Mesh& mesh) {
         const Vertex &a = scene.vertices[t[0]], &b = scene.vertices[t[1]],
                      &c = scene.vertices[t[2]];
         const glm::vec3 e = b.position - a.position, f = c.position - a.position;
-        const glm::vec2 s = b.uv - a.uv, r = c.uv - a.uv;
+        const glm::vec2 s = turn * (b.*uv - a.*uv), r = turn * (c.*uv - a.*uv);
         const float area = s.x * r.y - s.y * r.x;
         const glm::vec3 alongU = (e * r.y - f * s.y) / area, alongV = (f * s.x - e * r.x) / area;
         if (!std::isfinite(glm::dot(alongU, alongU) + glm::dot(alongV, alongV)))

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,26 +28,68 @@ struct Vertex {
 // What a texture shows beyond its borders.
 enum class Wrap { repeat, mirrored, clamp };
 
+// How a texture is made smaller: OpenGL's six ways, in the order of their numbers. The first two
+// have no mipmaps.
+enum class Minified {
+    nearest,
+    linear,
+    nearestMipmapNearest,
+    linearMipmapNearest,
+    nearestMipmapLinear,
+    linearMipmapLinear
+};
+
 struct Texture {
     Image8 image;      // 4 channels, 8 bits
     bool srgb = false; // colour, not data
     Wrap wrapU = Wrap::repeat, wrapV = Wrap::repeat;
     bool nearest = false; // enlarged, its texels are squares
+    Minified minified = Minified::linearMipmapLinear;
 };
 
-// glTF 2.0 metallic-roughness, as far as it is used. Texture indices are into Scene::textures,
-// -1 for none.
+// A texture as a material reads it: where on it a vertex is (KHR_texture_transform).
+struct TextureUse {
+    int texture = -1; // into Scene::textures; -1: none
+    int set = 0;      // of coordinates: 0 reads Vertex::uv, 1 Vertex::uv1
+    glm::vec2 offset{0}, scale{1};
+    float rotation = 0; // radians, counter-clockwise for eyes that see v run down
+
+    bool exists() const { return texture >= 0; }
+    // Reads Vertex::uv as it is.
+    bool plain() const;
+    // Coordinates are matrix() * set + offset: scaled, then turned, then moved.
+    glm::mat2 matrix() const;
+    glm::vec2 at(const Vertex& vertex) const;
+
+    bool operator==(const TextureUse&) const = default;
+};
+
+// KHR_materials_pbrSpecularGlossiness, linear.
+struct SpecularGlossiness {
+    glm::vec3 specular{1}; // reflectance face-on
+    float glossiness = 1;  // 1 - roughness
+};
+
+// glTF 2.0 metallic-roughness, as far as it is used.
 struct Material {
     std::string name;
     glm::vec4 baseColour{1}; // linear, multiplied with the texture
-    int baseColourTexture = -1;
-    int normalTexture = -1;
+    TextureUse baseColourTexture = {};
+    TextureUse normalTexture = {};
     float normalScale = 1;
-    int metallicRoughnessTexture = -1; // roughness in green, metallic in blue
+    TextureUse metallicRoughnessTexture = {}; // roughness in green, metallic in blue
     float metallic = 0;
     float roughness = 1;
-    float alphaCutoff = 0; // > 0: texels with less alpha are holes
+    float alphaCutoff = 0; // > 0: where there is less alpha are holes
     bool doubleSided = false;
+    glm::vec3 emission{0}; // linear radiance, multiplied with the texture
+    TextureUse emissionTexture = {};
+    bool unlit = false; // shows its base colour, whatever the light
+    // In place of metallic and roughness. The base colour is the diffuse one then, and the texture
+    // of metallic and roughness has the specular colour (as sRGB), glossiness in alpha.
+    std::optional<SpecularGlossiness> specularGlossiness = {};
+
+    bool emits() const; // light of its own, or is unlit
 };
 
 // A run of triangles of one material: three indices each.
@@ -99,7 +142,8 @@ Scene loadScene(const std::filesystem::path& path);
 // SHA-256 of the file and all files it refers to, as Scene::sha256, without decoding any.
 std::string sceneSha256(const std::filesystem::path& path);
 
-// Derives per-vertex tangents from positions, normals and texture coordinates (Lengyel 2001).
+// Derives per-vertex tangents from positions, normals and the texture coordinates that the mesh's
+// normal map is read with (Lengyel 2001).
 // Indices are into `scene.vertices`, three a triangle.
 // Vertices without a usable direction get none: zero.
 void deriveTangents(Scene& scene, const Mesh& mesh);

@@ -2,10 +2,8 @@
 #if MASKED
 #include "material.glsl"
 
-in vec2 materialUv;
-
 void main() {
-    if (baseColourAt(materialUv).a < surface.x)
+    if (baseColourHere().a < surface.x)
         discard;
 }
 #else

@@ -11,6 +11,12 @@ invariant gl_Position;
 out vec3 viewNormal;
 out vec4 viewTangent;
 out vec2 materialUv;
+#if TRANSFORMED
+out vec2 materialUv1;
+#endif
+#if COLOURED
+out vec4 vertexColour;
+#endif
 out vec3 viewPlace;
 
 void main() {
@@ -19,6 +25,12 @@ void main() {
     viewNormal = rotation * normal;
     viewTangent = vec4(rotation * tangent.xyz, tangent.w);
     materialUv = uv;
+#if TRANSFORMED
+    materialUv1 = uv1;
+#endif
+#if COLOURED
+    vertexColour = colour;
+#endif
     viewPlace = viewPosition.xyz;
     gl_Position = clipFromWorld * vec4(position, 1.0);
 }

@@ -26,8 +26,10 @@ class ProxySpheres {
 // it keeps the triangles alone.
 class SceneSpheres {
   public:
-    explicit SceneSpheres(const Scene& scene)
-        : triangles_{scene.vertices, scene.indices, {}, {}, {}, {}, {}, {}, {}} {}
+    explicit SceneSpheres(const Scene& scene) {
+        triangles_.vertices = scene.vertices;
+        triangles_.indices = scene.indices;
+    }
     const ProxySpheres& operator()() const;
 
   private:

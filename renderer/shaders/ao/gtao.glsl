@@ -144,9 +144,9 @@ vec4 denoisedGather(ivec2 pixel) {
                                   : texelFetch(denoiseThriceResult, pixel, 0);
 }
 
-// The light to add: the ambient light around the mean open direction less that around the normal,
-// which the composite adds by itself. Both are multiplied by the final visibility, so that the sum
-// is never negative.
+// The light to add: the scattered ambient light around the mean open direction less that around the
+// normal, which the composite adds by itself; what metals mirror stays. Both are multiplied by the
+// final visibility, so that hardly a sum is negative.
 vec4 bentLight(ivec2 pixel) {
     vec4 denoised = denoisedGather(pixel);
     float v = denoised.r;
@@ -156,6 +156,7 @@ vec4 bentLight(ivec2 pixel) {
     mat3 worldFromView = mat3(frame.worldFromView);
     vec3 fromBent = irradianceAt(worldFromView * normalize(bent));
     vec3 fromNormal = irradianceAt(worldFromView * texelFetch(normalBuffer, pixel, 0).xyz);
-    return vec4(v, texelFetch(albedoBuffer, pixel, 0).rgb * (fromBent - fromNormal) / pi *
+    vec4 albedo = texelFetch(albedoBuffer, pixel, 0); // alpha: metallic
+    return vec4(v, albedo.rgb * (1.0 - albedo.a) * (fromBent - fromNormal) / pi *
                        finalVisibility(v));
 }

@@ -49,6 +49,7 @@ sun = { azimuthDegrees = 30, elevationDegrees = 50, irradiance = [3, 2, 1] }
 curve = "reinhard"
 white = 5
 occludeDirect = false
+sceneLights = false
 [levels.unused]
 ambient = [0.25, 1, 1]
 
@@ -157,6 +158,9 @@ const Turn turns[] = {
     {"elevationDegrees = 50", "elevationDegrees = 51", Part::stimuli},
     {"irradiance = [3", "irradiance = [2", Part::stimuli},
     {"curve = \"reinhard\"", "curve = \"clamp\"", Part::stimuli},
+    {"curve = \"reinhard\"", "curve = \"aces\"", Part::stimuli},
+    {"curve = \"reinhard\"", "curve = \"neutral\"", Part::stimuli},
+    {"sceneLights = false", "sceneLights = true", Part::stimuli},
     {"white = 5", "white = 6", Part::stimuli},
     {"occludeDirect = false", "occludeDirect = true", Part::stimuli},
     {"technique = \"blizzard\"", "technique = \"crytek\"", Part::stimuli},

@@ -39,6 +39,8 @@ Manifest sample() {
     pair.image("b").recipe.level.sky.reset();
     pair.image("b").recipe.level.sun.reset();
     pair.image("b").recipe.level.ambient = Vec3{1, 1, 1};
+    pair.image("b").recipe.level.curve = Curve::neutral;
+    pair.image("b").recipe.level.sceneLights = true;
     pair.image("b").recipe.settings = {{"radius", 0.2}, {"samples", 24}};
     pair.image("b").meanOcclusion = 0.125;
     pair.image("b").quality = {0.1 / 3, 9.25, std::string(64, '5')};
@@ -122,6 +124,8 @@ TEST(ManifestTest, EveryPartOfARecipeChangesItsHash) {
         {"sky", [](Recipe& r) { r.level.sky->ground[2] = 0; }},
         {"sun", [](Recipe& r) { r.level.sun->azimuthDegrees = 0; }},
         {"curve", [](Recipe& r) { r.level.curve = Curve::clamp; }},
+        {"another curve", [](Recipe& r) { r.level.curve = Curve::aces; }},
+        {"lights", [](Recipe& r) { r.level.sceneLights = true; }},
         {"white", [](Recipe& r) { r.level.white = 9; }},
         {"occludeDirect", [](Recipe& r) { r.level.occludeDirect = true; }},
         {"environment", [](Recipe& r) { r.environmentSha256 = "x"; }},
@@ -150,6 +154,20 @@ TEST(ManifestTest, NumbersThatDoNotFitAreRefused) {
         text.replace(text.rfind(width), width.size(), fmt::format("\"width\": {}", number));
         writeFile(file(), text);
         EXPECT_THROW(readManifest(file()), Error) << number;
+    }
+}
+
+TEST(ManifestTest, ACurveOfALaterVersionIsRefused) {
+    writeManifest(file(), sample());
+    std::string text = readFile(file());
+    text.replace(text.find("\"reinhard\""), 10, "\"filmic\"");
+    writeFile(file(), text);
+    try {
+        readManifest(file());
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_THAT(error.what(), testing::HasSubstr("recipe.level.curve: expected one of clamp, "
+                                                     "reinhard, aces, neutral, found \"filmic\""));
     }
 }
 

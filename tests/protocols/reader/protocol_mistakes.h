@@ -90,8 +90,8 @@ inline const Mistake mistakes[] = {
      "small.toml:18:53: levels.high.sun.colour: unknown key; one of: azimuthDegrees, "
      "elevationDegrees, irradiance"},
     {"UnknownCurve", "ambient = [1, 1, 1]", "ambient = [1, 1, 1]\ncurve = \"rheinhard\"",
-     "small.toml:15:9: levels.low.curve: expected one of \"clamp\", \"reinhard\", found "
-     "\"rheinhard\"; did you mean \"reinhard\"?"},
+     "small.toml:15:9: levels.low.curve: expected one of \"clamp\", \"reinhard\", \"aces\", "
+     "\"neutral\", found \"rheinhard\"; did you mean \"reinhard\"?"},
     {"TechniqueMissing", "technique = \"none\"\n", "",
      "small.toml:20:1: techniques.none.technique: expected a text in quotes, found nothing; add "
      "\"technique\" here"},

@@ -84,10 +84,10 @@ TEST_P(BuiltinScene, NothingIsUnused) {
     EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
     std::vector<bool> shown(scene.textures.size());
     for (const Material& material : scene.materials)
-        for (const int texture : {material.baseColourTexture, material.normalTexture,
-                                  material.metallicRoughnessTexture})
-            if (texture >= 0)
-                shown.at(static_cast<std::size_t>(texture)) = true;
+        for (const TextureUse& use : {material.baseColourTexture, material.normalTexture,
+                                      material.metallicRoughnessTexture})
+            if (use.exists())
+                shown.at(static_cast<std::size_t>(use.texture)) = true;
     EXPECT_EQ(std::count(shown.begin(), shown.end(), false), 0);
 }
 
@@ -103,21 +103,20 @@ TEST_P(BuiltinScene, TexturesAreWhole) {
 
 TEST_P(BuiltinScene, MaterialsUseColourAsColourAndDataAsData) {
     for (const Material& material : scene.materials) {
-        const auto srgb = [&](int texture) {
-            return scene.textures[static_cast<std::size_t>(texture)].srgb;
+        const auto srgb = [&](const TextureUse& use) {
+            return use.exists() && scene.textures[static_cast<std::size_t>(use.texture)].srgb;
         };
         EXPECT_FALSE(material.name.empty());
-        EXPECT_TRUE(material.baseColourTexture < 0 || srgb(material.baseColourTexture));
-        EXPECT_FALSE(material.normalTexture >= 0 && srgb(material.normalTexture));
-        EXPECT_FALSE(material.metallicRoughnessTexture >= 0 &&
-                     srgb(material.metallicRoughnessTexture));
+        EXPECT_EQ(srgb(material.baseColourTexture), material.baseColourTexture.exists());
+        EXPECT_FALSE(srgb(material.normalTexture));
+        EXPECT_FALSE(srgb(material.metallicRoughnessTexture));
         EXPECT_THAT(material.roughness, AllOf(Ge(0.0F), Le(1.0F)));
     }
 }
 
 TEST_P(BuiltinScene, NormalMapsHaveTangents) {
     for (const Mesh& mesh : scene.meshes) {
-        if (scene.materials[static_cast<std::size_t>(mesh.material)].normalTexture < 0)
+        if (scene.materials[static_cast<std::size_t>(mesh.material)].normalTexture.texture < 0)
             continue;
         std::size_t wrong = 0;
         for (std::size_t i = mesh.firstIndex; i < mesh.firstIndex + mesh.indexCount; ++i) {
@@ -175,7 +174,7 @@ TEST(BuiltinSizes, FiguresHaveOcclusionPaintedIntoTheirColours) {
                          [&](const Material& candidate) { return candidate.name == name; });
         ASSERT_NE(material, scene.materials.end());
         const Image8& image =
-            scene.textures[static_cast<std::size_t>(material->baseColourTexture)].image;
+            scene.textures[static_cast<std::size_t>(material->baseColourTexture.texture)].image;
         std::size_t dark = 0;
         for (std::size_t i = 0; i < image.pixels.size(); i += 4)
             dark += image.pixels[i] < 60 ? 1 : 0;
@@ -224,10 +223,18 @@ TEST(ContentHash, DiffersWithEverything) {
     change([](Scene& s) { s.meshes[0].indexCount = 0; });
     change([](Scene& s) { s.meshes[0].firstIndex = 3; });
     change([](Scene& s) { s.materials[0].baseColour.b = 0.5F; });
-    change([](Scene& s) { s.materials[0].baseColourTexture = 0; });
-    change([](Scene& s) { s.materials[0].normalTexture = 0; });
+    change([](Scene& s) { s.materials[0].baseColourTexture.texture = 0; });
+    change([](Scene& s) { s.materials[0].normalTexture.texture = 0; });
     change([](Scene& s) { s.materials[0].normalScale = 2; });
-    change([](Scene& s) { s.materials[0].metallicRoughnessTexture = 0; });
+    change([](Scene& s) { s.materials[0].metallicRoughnessTexture.texture = 0; });
+    change([](Scene& s) { s.materials[0].baseColourTexture.set = 1; });
+    change([](Scene& s) { s.materials[0].baseColourTexture.offset.y = 1; });
+    change([](Scene& s) { s.materials[0].baseColourTexture.scale.x = 2; });
+    change([](Scene& s) { s.materials[0].baseColourTexture.rotation = 1; });
+    change([](Scene& s) { s.materials[0].emission.g = 1; });
+    change([](Scene& s) { s.materials[0].unlit = true; });
+    change([](Scene& s) { s.materials[0].specularGlossiness.emplace(); });
+    change([](Scene& s) { s.materials[0].specularGlossiness = {{1, 1, 1}, 0.5F}; });
     change([](Scene& s) { s.materials[0].metallic = 1; });
     change([](Scene& s) { s.materials[0].roughness = 0; });
     change([](Scene& s) { s.materials[0].alphaCutoff = 0.5F; });
@@ -236,6 +243,7 @@ TEST(ContentHash, DiffersWithEverything) {
     change([](Scene& s) { s.textures[0].wrapU = Wrap::clamp; });
     change([](Scene& s) { s.textures[0].wrapV = Wrap::mirrored; });
     change([](Scene& s) { s.textures[0].nearest = true; });
+    change([](Scene& s) { s.textures[0].minified = Minified::linear; });
     change([](Scene& s) { s.textures[0].image.pixels[0] = 9; });
     change([](Scene& s) { s.textures[0].image.width = 2; });
     base.materials[0].name = "mud"; // shows nowhere

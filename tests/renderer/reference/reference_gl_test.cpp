@@ -65,7 +65,7 @@ TEST_F(RaysAndRasteriser, AgreeOnTheHolesOfMaskedMaterials) {
                 texture.image.pixels.push_back(static_cast<std::uint8_t>(value));
     scene.textures.push_back(texture);
     Material masked;
-    masked.baseColourTexture = 0;
+    masked.baseColourTexture.texture = 0;
     masked.baseColour.a = 0.9f;
     masked.alphaCutoff = 0.4f;
     masked.doubleSided = true;
@@ -89,6 +89,21 @@ TEST_F(RaysAndRasteriser, AgreeOnTheHolesOfMaskedMaterials) {
     scene.textures[0].nearest = true;
     EXPECT_GT(agreement(scene, camera, 320, 240), 0.995) << "squares";
     scene.textures[0] = texture;
+    // Moved, turned and scaled coordinates, of the second set, and alpha of vertices.
+    TextureUse& use = scene.materials[1].baseColourTexture;
+    use.offset = {0.2f, 0.7f};
+    use.scale = {1.5f, 0.6f};
+    use.rotation = 0.5f;
+    EXPECT_GT(agreement(scene, camera, 320, 240), 0.995) << "transformed";
+    use.set = 1;
+    for (std::uint32_t i = first; i < first + 4; ++i) {
+        scene.vertices[i].uv1 = {scene.vertices[i].uv.y, scene.vertices[i].uv.x};
+        scene.vertices[i].colour.a = i % 2 ? 0.5f : 1;
+    }
+    EXPECT_GT(agreement(scene, camera, 320, 240), 0.995) << "second set, vertex alpha";
+    use = {.texture = 0};
+    for (std::uint32_t i = first; i < first + 4; ++i)
+        scene.vertices[i].colour.a = 1;
     // Colour is filtered anisotropically, which software Mesa does a tenth of a texel off.
     scene.textures[0].srgb = true;
     EXPECT_GT(agreement(scene, camera, 320, 240), 0.98);

@@ -281,7 +281,7 @@ Build striped(double x0, double x1, float u1, Wrap wrap, float factor) {
         scene.vertices[static_cast<std::size_t>(corner)].uv.x =
             corner == 1 || corner == 2 ? u1 : 0.0f;
     scene.textures.push_back({{2, 1, 4, {255, 255, 255, 255, 255, 255, 255, 0}}, true, wrap, wrap});
-    scene.materials[0].baseColourTexture = 0;
+    scene.materials[0].baseColourTexture.texture = 0;
     scene.materials[0].baseColour.a = factor;
     scene.materials[0].alphaCutoff = 0.5f;
     return build;

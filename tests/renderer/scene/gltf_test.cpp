@@ -43,6 +43,21 @@ json fullGltf() {
     return root;
 }
 
+// The same with every extension of materials that we read.
+json extendedGltf() {
+    json root = fullGltf();
+    json& material = root["materials"][0];
+    material["normalTexture"]["extensions"] = json::parse(
+        R"({"KHR_texture_transform":{"offset":[0,1],"rotation":1,"scale":[2,2],"texCoord":1}})");
+    material["emissiveFactor"] = {1, 1, 1};
+    material["extensions"] = json::parse(
+        R"({"KHR_materials_emissive_strength":{"emissiveStrength":2},
+            "KHR_materials_pbrSpecularGlossiness":{"diffuseFactor":[1,1,1,1],
+              "specularFactor":[1,1,1],"glossinessFactor":1,"diffuseTexture":{"index":0}}})");
+    root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 0;
+    return root;
+}
+
 class Gltf : public testing::Test {
   protected:
     Gltf() { writeFile(folder_ / "t.bin", triangleBuffer()); }
@@ -87,7 +102,7 @@ TEST_F(Gltf, EveryLieIsAnErrorOrHarmless) {
         1e30, 1e300, 1e-300, true, null, "", "x", "../t.bin", "/dev/zero", "t.gltf", "data:,",
         "data:;base64,////", "MAT4", "VEC2", "SCALAR", [], {}, [1e300, 1e300, 1e300], [0], [[[]]], 5120,
         5125, 5126, 4, 5, 6])");
-    const json original = fullGltf();
+    const json original = extendedGltf();
     json walked = original;
     std::size_t places = 0;
     visit(walked, [&](json&) { ++places; });
@@ -332,6 +347,73 @@ TEST_F(Gltf, RefusesATextureLargerThanOpenGlTakes) {
     root["images"][0]["uri"] = "wide.png";
     EXPECT_THAT(errorOf(root), AllOf(HasSubstr("images[0]"), HasSubstr("wide.png"),
                                      HasSubstr("at most 16384 pixels"), HasSubstr("16385 x 1")));
+}
+
+// What extensions of materials say, as it is read.
+TEST_F(Gltf, ReadsExtensionsOfMaterials) {
+    json root = fullGltf();
+    json& material = root["materials"][0];
+    material["pbrMetallicRoughness"]["baseColorTexture"]["extensions"]["KHR_texture_transform"] =
+        json::parse(R"({"offset":[0.5,0.25],"rotation":1.5,"scale":[2,3],"texCoord":4})");
+    material["emissiveFactor"] = {0.5, 1, 0};
+    material["emissiveTexture"] = {{"index", 0}, {"texCoord", 0}};
+    material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = 4;
+    Scene scene = loadScene(write(root));
+    EXPECT_THAT(scene.warnings, testing::IsEmpty());
+    Material read = scene.materials[0];
+    EXPECT_EQ(read.baseColourTexture.offset, glm::vec2(0.5F, 0.25F));
+    EXPECT_EQ(read.baseColourTexture.scale, glm::vec2(2, 3));
+    EXPECT_EQ(read.baseColourTexture.rotation, 1.5F);
+    EXPECT_EQ(read.baseColourTexture.set, 0); // that is TEXCOORD_4
+    EXPECT_EQ(read.normalTexture.set, 1);
+    EXPECT_EQ(read.emissionTexture.set, 1);
+    EXPECT_EQ(read.emission, glm::vec3(2, 4, 0));
+    for (const Vertex& vertex : scene.vertices)
+        EXPECT_EQ(vertex.uv, glm::vec2(0)); // for the file has none of it
+    EXPECT_EQ(scene.vertices[1].uv1, glm::vec2(1, 1));
+
+    material["extensions"]["KHR_materials_pbrSpecularGlossiness"] = json::parse(
+        R"({"diffuseFactor":[0.1,0.2,0.3,0.4],"specularFactor":[0.5,0.6,0.7],
+            "glossinessFactor":0.8,"specularGlossinessTexture":{"index":0}})");
+    read = loadScene(write(root)).materials[0];
+    ASSERT_TRUE(read.specularGlossiness);
+    EXPECT_EQ(read.baseColour, glm::vec4(0.1F, 0.2F, 0.3F, 0.4F));
+    EXPECT_FALSE(read.baseColourTexture.exists());
+    EXPECT_EQ(read.specularGlossiness->specular, glm::vec3(0.5F, 0.6F, 0.7F));
+    EXPECT_EQ(read.specularGlossiness->glossiness, 0.8F);
+    EXPECT_TRUE(read.metallicRoughnessTexture.exists());
+
+    material["extensions"]["KHR_materials_unlit"] = json::object();
+    read = loadScene(write(root)).materials[0];
+    EXPECT_TRUE(read.unlit);
+    EXPECT_FALSE(read.specularGlossiness);
+    EXPECT_EQ(read.emission, glm::vec3(0));
+    EXPECT_TRUE(read.baseColourTexture.exists());
+}
+
+TEST_F(Gltf, ReadsWebpAndPrefersItToTheFallback) {
+    json root = fullGltf();
+    // A red pixel, by libwebp 1.2.4.
+    root["images"].push_back(
+        {{"uri", "data:image/webp;base64,UklGRhwAAABXRUJQVlA4TA8AAAAvAAAAAAcQ/Y/+ByKi/wEA"}});
+    root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    Scene scene = loadScene(write(root));
+    EXPECT_THAT(scene.textures[0].image.pixels, testing::ElementsAre(255, 0, 0, 255));
+    root["textures"][0].erase("source");
+    scene = loadScene(write(root));
+    EXPECT_THAT(scene.textures[0].image.pixels, testing::ElementsAre(255, 0, 0, 255));
+    root["textures"][0].erase("extensions");
+    EXPECT_THAT(errorOf(root), HasSubstr("textures[0].source: expected an image, found none"));
+}
+
+TEST_F(Gltf, ReadsEverySampler) {
+    json root = fullGltf();
+    for (int filter = 0; filter < 6; ++filter) {
+        root["samplers"][0]["minFilter"] = filter < 2 ? 9728 + filter : 9982 + filter;
+        EXPECT_EQ(static_cast<int>(loadScene(write(root)).textures[0].minified), filter);
+    }
+    root["samplers"][0].erase("minFilter");
+    EXPECT_EQ(loadScene(write(root)).textures[0].minified, Minified::linearMipmapLinear);
 }
 
 TEST_F(Gltf, RequiredQuantizationIsShown) {

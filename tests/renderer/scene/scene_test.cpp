@@ -182,5 +182,24 @@ TEST_F(SharedScene, DerivedTangentsAgreeWithTheFiles) {
     }
 }
 
+// The extension's own example: "the lower left quadrant of the source image".
+TEST(TextureUse, AQuarterTurnIsThatOfTheExtensionsExample) {
+    TextureUse use;
+    EXPECT_TRUE(use.plain());
+    use.offset = {0, 1};
+    use.scale = {0.5f, 0.5f};
+    use.rotation = 1.57079632679f;
+    EXPECT_FALSE(use.plain());
+    for (const glm::vec2 corner : {glm::vec2(0, 0), glm::vec2(1, 0), glm::vec2(0, 1)}) {
+        Vertex vertex;
+        vertex.uv = corner;
+        const glm::vec2 at = use.at(vertex);
+        EXPECT_NEAR(at.x, 0.5f * corner.y, 1e-6f);
+        EXPECT_NEAR(at.y, 1 - 0.5f * corner.x, 1e-6f);
+    }
+    use.set = 1;
+    EXPECT_NEAR(use.at({.uv = {1, 1}, .uv1 = {0, 1}}).x, 0.5f, 1e-6f);
+}
+
 } // namespace
 } // namespace obscura
