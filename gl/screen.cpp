@@ -1,5 +1,7 @@
 #include "gl/screen.h"
 
+#include "gl/target.h"
+
 #include <epoxy/gl.h>
 
 namespace obscura::gl {
@@ -22,6 +24,14 @@ std::vector<std::uint8_t> readScreen(int width, int height) {
     glReadBuffer(GL_BACK);
     glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
     return pixels;
+}
+
+Texture uploaded(int width, int height, std::span<const std::byte> rgba) {
+    Texture texture = targetTexture(width, height, Format::rgba8, "uploaded");
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE,
+                        rgba.data());
+    return texture;
 }
 
 } // namespace obscura::gl

@@ -1,7 +1,11 @@
 #pragma once
 
+#include "gl/object.h"
+
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace obscura::gl {
@@ -13,5 +17,8 @@ void clearScreen(int width, int height, std::array<float, 3> colour);
 
 // Its code values: red, green and blue, rows from the bottom.
 std::vector<std::uint8_t> readScreen(int width, int height);
+
+// A texture to be shown, made of RGBA rows from the bottom.
+Texture uploaded(int width, int height, std::span<const std::byte> rgba);
 
 } // namespace obscura::gl

@@ -50,7 +50,8 @@ State stateOf(const CommandLine& line) {
 
 Application::Application(const CommandLine& line)
     : line_(line), window_(line.width, line.height, line.uiScale), state_(stateOf(line)),
-      worker_(std::make_unique<Worker>(window_.workerContext(), ViewerWindow::wake)) {
+      worker_(std::make_unique<Worker>(window_.workerContext(), ViewerWindow::wake,
+                                       !window_.sharesWithWorker())) {
     browser_.folder = fs::current_path();
     if (!line.scenes.empty() && fs::is_directory(line.scenes))
         browser_.folder = fs::canonical(line.scenes);
@@ -132,11 +133,13 @@ void Application::frame() {
     area_ = drawPanels();
     const bool flying = fly();
     carryOut(std::exchange(requests_, {}));
+    saveScreenshot();
     if (opened_) // until another scene is ready, this one is drawn
         worker_->want(wanted());
     worker_->probe(hand_.pixel ? std::optional(std::array{hand_.pixel->x, hand_.pixel->y})
                                : std::nullopt);
     window_.end();
+    uploads_.forget();
     ++frames_;
     // After anything that happened, ImGui wants one frame more to settle.
     settling_ = !settling_;
@@ -153,8 +156,19 @@ Box Application::drawPanels() {
     const double bottom = panels ? height - std::round(statusHeight * scale) : height;
     const double side = panels ? std::min(std::round(sideWidth * scale), width * 0.6) : 0;
     const Box area{0, top, width - side, bottom - top};
-    Moment moment{ui,       state_,      opened_, drawn_,    status_, probed_,
-                  history_, test_.get(), desk_,   requests_, area,    window_.cursorLocked()};
+    Moment moment{ui,
+                  state_,
+                  opened_,
+                  drawn_,
+                  status_,
+                  probed_,
+                  history_,
+                  test_.get(),
+                  desk_,
+                  requests_,
+                  uploads_,
+                  area,
+                  window_.cursorLocked()};
     hand_ = picturesPanel(moment);
     if (panels) {
         barPanel(moment, {0, 0, width, top});

@@ -5,6 +5,7 @@
 #include "viewer/window.h"
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -49,7 +50,8 @@ class Application {
     bool fly();
     Box drawPanels();
     void carryOut(const Requests& requests);
-    void screenshot();
+    void askForScreenshot();
+    void saveScreenshot();
     void addStudy(const Requests& requests);
     void startTest();
     void say(const std::string& text, bool error = false);
@@ -77,6 +79,15 @@ class Application {
     std::string flown_; // keys of flying that were pressed since the last frame
     int frames_ = 0;
     std::unique_ptr<TestRun> test_;
+    Uploads uploads_;
+    // A screenshot that waits for visibilities from the drawing thread.
+    struct Shot {
+        std::shared_ptr<const Drawn> drawn;
+        std::mutex mutex;
+        bool taken = false;
+        std::vector<Image> visibilities;
+    };
+    std::shared_ptr<Shot> shot_;
     std::unique_ptr<Worker> worker_; // its context is the window's: dies before it
 };
 

@@ -63,7 +63,7 @@ void Application::carryOut(const Requests& requests) try {
         say("Copied: " + *requests.copy);
     }
     if (requests.screenshot)
-        screenshot();
+        askForScreenshot();
     addStudy(requests);
     if (requests.startTest)
         startTest();
@@ -98,18 +98,41 @@ void Application::addStudy(const Requests& requests) {
     }
 }
 
-void Application::screenshot() {
-    if (!drawn_ || !opened_)
+void Application::askForScreenshot() {
+    if (!drawn_ || !opened_ || shot_)
         return;
-    const View view = seenOf(state_, drawn_->wanted).view;
-    std::string written;
-    for (std::size_t i = 0; i < drawn_->panes.size(); ++i) {
-        const std::string name = screenshotName(view, drawn_->wanted.panes[i], drawn_->wanted.show);
-        const Screenshot saved =
-            writeScreenshot(desk_.pictures, name, imageOf(*drawn_->panes[i].picture));
-        written += (written.empty() ? "" : ", ") + saved.png.string();
+    shot_ = std::make_shared<Shot>();
+    shot_->drawn = drawn_;
+    worker_->capture([shot = shot_](std::vector<Image> visibilities) {
+        const std::lock_guard lock(shot->mutex);
+        shot->visibilities = std::move(visibilities);
+        shot->taken = true;
+    });
+}
+
+void Application::saveScreenshot() try {
+    if (!shot_)
+        return;
+    std::vector<Image> visibilities;
+    {
+        const std::lock_guard lock(shot_->mutex);
+        if (!shot_->taken)
+            return;
+        visibilities = std::move(shot_->visibilities);
     }
-    say("Saved " + written);
+    const Drawn drawn = *std::exchange(shot_, nullptr)->drawn;
+    const View view = seenOf(state_, drawn.wanted).view;
+    std::string written;
+    for (std::size_t i = 0; i < drawn.panes.size(); ++i) {
+        const std::string name = screenshotName(view, drawn.wanted.panes[i], drawn.wanted.show);
+        const Screenshot saved =
+            writeScreenshot(desk_.pictures, name, imageOf(*drawn.panes[i].picture),
+                            i < visibilities.size() ? visibilities[i] : Image{});
+        written += (written.empty() ? "" : "\n") + saved.png.string();
+    }
+    say("Saved as PNG, and visibility as EXR beside:\n" + written);
+} catch (const Error& problem) {
+    say(problem.what(), true);
 }
 
 void Application::startTest() {

@@ -18,27 +18,29 @@ ImVec2 highOf(const Box& box) {
     return {static_cast<float>(box.right()), static_cast<float>(box.bottom())};
 }
 
-const SharedPicture* pictureOf(const Drawn& drawn, int pane) {
+std::shared_ptr<const SharedPicture> pictureOf(const Drawn& drawn, int pane) {
     if (pane < 0)
-        return drawn.difference.get();
+        return drawn.difference;
     return pane < static_cast<int>(drawn.panes.size())
-               ? drawn.panes[static_cast<std::size_t>(pane)].picture.get()
+               ? drawn.panes[static_cast<std::size_t>(pane)].picture
                : nullptr;
 }
 
 // Pixel by pixel where pixels can be told apart; smoothly where a reduced picture is spread out.
 void drawPicture(const Moment& moment, const PlacedPane& pane) {
-    const SharedPicture* picture = moment.drawn ? pictureOf(*moment.drawn, pane.pane) : nullptr;
+    const std::shared_ptr<const SharedPicture> picture =
+        moment.drawn ? pictureOf(*moment.drawn, pane.pane) : nullptr;
     if (!picture || pane.clip.width <= 0)
         return;
     const Magnification& magnification = moment.state.magnification;
     const Box part = shownPart(magnification);
-    gl::filterLinearly(picture->texture,
+    const gl::Texture& texture = moment.uploads.of(picture);
+    gl::filterLinearly(texture,
                        magnification.factor < 2 && picture->width != std::lround(pane.place.width));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(lowOf(pane.clip), highOf(pane.clip), true);
     list.AddImage(reinterpret_cast<ImTextureID>( // ImGui carries numbers as pointers
-                      static_cast<std::uintptr_t>(picture->texture.name())),
+                      static_cast<std::uintptr_t>(texture.name())),
                   lowOf(pane.place), highOf(pane.place),
                   {static_cast<float>(part.x), static_cast<float>(1 - part.y)},
                   {static_cast<float>(part.right()), static_cast<float>(1 - part.bottom())});

@@ -3,6 +3,7 @@
 #include "viewer/loader.h"
 #include "viewer/state.h"
 #include "viewer/test_run.h"
+#include "viewer/uploads.h"
 #include "viewer/widgets.h"
 #include "viewer/worker.h"
 
@@ -72,6 +73,7 @@ struct Moment {
     const TestRun* test; // null before the first
     Desk& desk;
     Requests& requests;
+    Uploads& uploads;
     Box area; // where pictures are
     bool cursorLocked = false;
 };

@@ -39,6 +39,12 @@ double straightened(const Scale& scale, double value) {
     return value;
 }
 
+// A power of ten, twice or five times that, no more than given.
+double roundStep(double most) {
+    const double ten = std::pow(10, std::floor(std::log10(most)));
+    return most >= 5 * ten ? 5 * ten : most >= 2 * ten ? 2 * ten : ten;
+}
+
 double toThreeDigits(double value) {
     if (value == 0)
         return 0;
@@ -70,19 +76,20 @@ double positionOf(const Scale& scale, double value) {
 }
 
 double valueAt(const Scale& scale, double position) {
+    if (position <= 0 || position >= 1)
+        return position <= 0 ? scale.low : scale.high;
     const double low = bent(scale, scale.low), high = bent(scale, scale.high);
-    const double value = straightened(scale, low + std::clamp(position, 0.0, 1.0) * (high - low));
-    // A step of an even slider is a five-hundredth of its range, so that it comes by round numbers.
+    double value = straightened(scale, low + position * (high - low));
     if (scale.whole)
-        return std::clamp(std::round(value), scale.low, scale.high);
-    if (scale.kind == Scale::Kind::even) {
-        const double step = toThreeDigits((scale.high - scale.low) / 500);
-        return std::clamp(std::round(value / step) * step, scale.low, scale.high);
-    }
-    // What is nearer to zero than one step of the slider is zero.
-    if (scale.kind == Scale::Kind::aroundZero && std::abs(value) < knee(scale) / 20)
-        return std::clamp(0.0, scale.low, scale.high);
-    return std::clamp(toThreeDigits(value), scale.low, scale.high);
+        value = std::round(value);
+    else if (scale.kind == Scale::Kind::even) { // round numbers, some five hundred of them
+        const double step = roundStep((scale.high - scale.low) / 500);
+        value = std::round(value / step) * step;
+    } else if (scale.kind == Scale::Kind::aroundZero && std::abs(value) < knee(scale) / 20)
+        value = 0; // so that it can be hit
+    else
+        value = toThreeDigits(value);
+    return std::clamp(value, scale.low, scale.high);
 }
 
 std::string valueText(double value, Unit unit) {

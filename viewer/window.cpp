@@ -55,16 +55,19 @@ ViewerWindow::ViewerWindow(int width, int height, double uiScale) : uiScale_(uiS
     window_.reset(glfwCreateWindow(width, height, "Obscura", nullptr, nullptr));
     if (!window_)
         throw Error(fmt::format("expected a window with OpenGL 4.5, found none: {}", reason()));
-    hintContext();
-    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-    hidden_.reset(glfwCreateWindow(16, 16, "", nullptr, window_.get()));
-    if (!hidden_)
-        throw Error(fmt::format("expected a second OpenGL context that shares objects with the "
-                                "window's, found none: {}",
-                                reason()));
-    glfwSetWindowSizeLimits(window_.get(), 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwMakeContextCurrent(window_.get());
     gl::collectMessages();
+    shares_ = !gl::currentDriver().software;
+    if (shares_) {
+        hintContext();
+        glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+        hidden_.reset(glfwCreateWindow(16, 16, "", nullptr, window_.get()));
+        if (!hidden_)
+            throw Error(fmt::format("expected a second OpenGL context that shares objects with the "
+                                    "window's, found none: {}",
+                                    reason()));
+    }
+    glfwSetWindowSizeLimits(window_.get(), 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwSwapInterval(1);
     glfwFocusWindow(window_.get());
     listen();
@@ -78,6 +81,8 @@ ViewerWindow::~ViewerWindow() {
 }
 
 std::function<std::shared_ptr<void>()> ViewerWindow::workerContext() {
+    if (!shares_)
+        return [] { return std::make_shared<gl::Context>(); };
     return [window = hidden_.get()] {
         glfwMakeContextCurrent(window);
         gl::collectMessages();

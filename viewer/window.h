@@ -30,9 +30,11 @@ class ViewerWindow {
     ViewerWindow(const ViewerWindow&) = delete;
     ViewerWindow& operator=(const ViewerWindow&) = delete;
 
-    // For Worker: makes current, on the thread that calls it, a context that shares this one's
-    // objects.
+    // For Worker: makes a context current on the thread that calls it. It shares this one's objects
+    // but on software drivers: there one queue serves all contexts that share, and the window would
+    // wait as long as a pass takes.
     std::function<std::shared_ptr<void>()> workerContext();
+    bool sharesWithWorker() const { return shares_; }
     static void wake(); // ends wait(); from any thread
 
     bool closing() const; // the user wants it to end
@@ -88,7 +90,7 @@ class ViewerWindow {
     Theme theme_;
     double uiScale_;
     int width_ = 0, height_ = 0;
-    bool locked_ = false;
+    bool locked_ = false, shares_ = true;
     std::array<double, 2> cursor_{}, motion_{};
     std::vector<KeyPress> presses_;
     std::vector<std::filesystem::path> dropped_;

@@ -23,8 +23,7 @@ TEST(ViewerState, AnOpenedSceneBringsItsViewsAndItsRadiusToEveryPane) {
     EXPECT_NEAR(state.size, 13, 1e-5);
     EXPECT_EQ(state.view.camera.fovDegrees, 60);
     for (const Settings& settings : state.panes)
-        if (settings.has("radius"))
-            EXPECT_EQ(settings["radius"], 0.75F);
+        EXPECT_EQ(settings.has("radius") ? settings["radius"] : 0.75F, 0.75F);
     ASSERT_EQ(state.views.size(), 2U);
     EXPECT_EQ(state.views[1].name, "door");
 }
