@@ -359,6 +359,12 @@ std::optional<Look> Scout::own(const NamedCamera& named, double least) const {
         return {};
     Look look;
     look.camera = named.camera;
+    // Files give a camera's own upward direction; where it is not rolled, that of the world will
+    // do.
+    const glm::dvec3 ahead = glm::normalize(vec(look.camera.target) - vec(look.camera.position)),
+                     right = glm::normalize(glm::cross(ahead, vec(look.camera.up)));
+    if (std::abs(right.y) < 1e-4 && look.camera.up[1] > 0)
+        look.camera.up = {0, 1, 0};
     const Glimpse at = glimpse(sight_, named.camera, aspect_, diagonal(extent_.whole));
     look.seen = seenFrom(glm::vec3(vec(named.camera.position)), whole_);
     if (at.shown < 0.12 || look.seen < least)

@@ -102,9 +102,10 @@ void frame(View& view, const Options& options, const Folders& folders) {
     view.camera.near = options.near.value_or(found.near);
     view.radius = options.radius.value_or(found.radius);
     const Camera& camera = view.camera;
-    fmt::print("{}\ncamera = {}\nradius = {}\n--camera {} {} --fov {} --near {} --radius {}\n",
+    fmt::print("{}\ncamera = {}\nradius = {}\n--camera {} {} --fov {} --near {} --radius {}{}\n",
                found.why, toToml(camera), view.radius, fmt::join(camera.position, " "),
-               fmt::join(camera.target, " "), camera.fovDegrees, camera.near, view.radius);
+               fmt::join(camera.target, " "), camera.fovDegrees, camera.near, view.radius,
+               camera.up == Camera().up ? "" : "  (these options have no \"up\")");
 }
 
 // One view put together on the command line.
