@@ -1,5 +1,6 @@
 #include "base/arguments.h"
 #include "base/progress.h"
+#include "protocols/reader/study_text.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/compare.h"
 #include "renderer/framing.h"

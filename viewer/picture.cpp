@@ -41,7 +41,9 @@ bool Wanted::operator==(const Wanted& other) const {
 
 Image8 imageOf(const SharedPicture& picture) {
     const std::vector<std::byte> bytes =
-        gl::readBytes(picture.texture, picture.width, picture.height, gl::Format::rgba8);
+        picture.pixels.empty()
+            ? gl::readBytes(picture.texture, picture.width, picture.height, gl::Format::rgba8)
+            : picture.pixels;
     Image8 image{picture.width, picture.height, 3, {}};
     for (int y = picture.height - 1; y >= 0; --y)
         for (int x = 0; x < picture.width; ++x)

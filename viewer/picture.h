@@ -69,10 +69,11 @@ struct Wanted {
 struct SharedPicture {
     gl::Texture texture;
     int width = 0, height = 0;
+    std::vector<std::byte> pixels = {}; // the same, RGBA; empty unless the worker copies
 };
 
 // What a picture shows, rows from the top, 3 channels. A context of the share group must be
-// current.
+// current, unless it has pixels.
 Image8 imageOf(const SharedPicture& picture);
 
 struct PassDrawn {

@@ -49,6 +49,7 @@ std::shared_ptr<SharedPicture> PicturePool::take(int width, int height) {
     if (!found)
         found = std::make_unique<SharedPicture>(SharedPicture{
             gl::targetTexture(width, height, gl::Format::rgba8, "picture"), width, height});
+    found->pixels.clear();
     return {found.release(), [shelf = shelf_](SharedPicture* picture) {
                 shelf->putBack(std::unique_ptr<SharedPicture>(picture));
             }};

@@ -81,6 +81,7 @@ struct Worker::State {
     void say(Doing what);
     void before(const Painter::Step& step);
     void publish(Drawn picture);
+    static void copy(const Drawn& picture);
     void dropForeignWish();
 
     const Notify notify;
@@ -88,7 +89,7 @@ struct Worker::State {
     mutable std::mutex mutex;        // of all below, as far as nothing else is said
     std::condition_variable wake;    // the drawing thread
     std::condition_variable changed; // those who wait until all is drawn
-    bool ending = false, dead = false, busy = true;
+    bool copies = false, ending = false, dead = false, busy = true;
     SceneId ids = 0;                                      // given so far
     SceneId opening = 0;                                  // being opened; 0: none
     std::optional<Wanted> wish;                           // not begun
@@ -281,7 +282,21 @@ void Worker::State::before(const Painter::Step& step) {
          step.expectedSeconds});
 }
 
+// Nobody else has the pictures yet, but for those that have been copied before.
+void Worker::State::copy(const Drawn& picture) {
+    const auto copyOne = [](const std::shared_ptr<const SharedPicture>& each) {
+        if (each && each->pixels.empty())
+            std::const_pointer_cast<SharedPicture>(each)->pixels =
+                gl::readBytes(each->texture, each->width, each->height, gl::Format::rgba8);
+    };
+    for (const PaneDrawn& pane : picture.panes)
+        copyOne(pane.picture);
+    copyOne(picture.difference);
+}
+
 void Worker::State::publish(Drawn picture) {
+    if (copies)
+        copy(picture);
     const auto now = Clock::now();
     const double taken = picture.frameMs / 1e3;
     const auto since = std::chrono::duration<double>(now - lastPicture).count();
@@ -434,8 +449,9 @@ void Worker::State::giveVisibilities(Painter& painter, std::size_t panes,
     notify();
 }
 
-Worker::Worker(MakeContext makeContext, Notify notify)
+Worker::Worker(MakeContext makeContext, Notify notify, bool copies)
     : state_(std::make_unique<State>(std::move(notify))) {
+    state_->copies = copies;
     state_->thread =
         std::jthread([state = state_.get(), make = std::move(makeContext)] { state->run(make); });
 }

@@ -63,7 +63,9 @@ class Worker {
     // sleeping event loop (glfwPostEmptyEvent). Must return at once, and not call the worker.
     using Notify = std::function<void()>;
 
-    Worker(MakeContext makeContext, Notify notify);
+    // With `copies`, pictures have their pixels in the CPU's memory too: for a context that shares
+    // nothing with the one in which they are shown.
+    Worker(MakeContext makeContext, Notify notify, bool copies = false);
     // Aborts what goes on, and waits for it. A file being read is read to its end first (seconds,
     // for the largest); hide the window before.
     ~Worker();

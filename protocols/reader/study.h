@@ -28,9 +28,6 @@ struct Camera {
 // other than straight along `up`, and its angle be below 180 degrees.
 std::string faultOf(const Camera& camera);
 
-// As TOML, on one line: what a study has behind "camera =".
-std::string toToml(const Camera& camera);
-
 // Metres: what radii a study may have.
 constexpr double lowestRadius = 1e-4, highestRadius = 1e4;
 

@@ -24,14 +24,6 @@ std::string faultOf(const Camera& camera) {
     return {};
 }
 
-std::string toToml(const Camera& camera) {
-    const auto triple = [](const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); };
-    return fmt::format("{{ position = {}, target = {}, up = {}, fovDegrees = {}{} }}",
-                       triple(camera.position), triple(camera.target), triple(camera.up),
-                       camera.fovDegrees,
-                       camera.near > 0 ? fmt::format(", near = {}", camera.near) : "");
-}
-
 namespace {
 
 // Scene coordinates: more than a million metres is a mistyped number.

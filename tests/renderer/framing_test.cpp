@@ -1,4 +1,5 @@
 // What a view must show, on scenes that are hard to show. Nothing here needs OpenGL.
+#include "protocols/reader/study_text.h"
 #include "renderer/extent.h"
 #include "renderer/found_cameras.h"
 #include "renderer/framing.h"
