@@ -1,6 +1,5 @@
 #include "renderer/scene/gltf_check.h"
 
-#include "base/error.h"
 #include "renderer/scene/gltf_check_materials.h"
 #include "renderer/scene/gltf_extensions.h"
 #include "renderer/scene/gltf_json.h"
@@ -33,6 +32,8 @@ class Checker : private GltfJson {
         each("buffers", [&](const json& o, const std::string& at) {
             whole(o, "byteLength", at, 1, mostBytes, true);
             text(o, "uri", at);
+            if (const json* packed = extension(o, "EXT_meshopt_compression", at))
+                flag(*packed, "fallback", extensionPath(at, "EXT_meshopt_compression"));
         });
         each("bufferViews", [&](const json& o, const std::string& at) { checkView(o, at); });
         each("accessors", [&](const json& o, const std::string& at) { checkAccessor(o, at); });
@@ -261,6 +262,11 @@ class Checker : private GltfJson {
         const std::vector<double> q = numbers(node, "rotation", at, 4);
         if (!q.empty() && !(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] > 1e-12))
             wrong(join(at, "rotation"), "a unit quaternion", node.at("rotation"));
+        if (const json* instances = extension(node, "EXT_mesh_gpu_instancing", at)) {
+            const std::string within = extensionPath(at, "EXT_mesh_gpu_instancing");
+            checkAttributes(*find(*instances, "attributes", within, true),
+                            join(within, "attributes"));
+        }
         if (const json* light = extension(node, "KHR_lights_punctual", at)) {
             const std::string within = extensionPath(at, "KHR_lights_punctual");
             const json* lights = extension(root(), "KHR_lights_punctual", "");
@@ -309,11 +315,6 @@ class Checker : private GltfJson {
 };
 
 } // namespace
-
-void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
-              const std::string& message) {
-    throw Error({file.string(), 0, 0, jsonPath}, message);
-}
 
 void checkGltf(const json& root, const std::filesystem::path& file) {
     const GltfJson values(root, file);
