@@ -204,6 +204,8 @@ const std::map<std::string, Rooms> keepers = {
     {"OpenImageIO/", {"image"}},
     {"pango/", {"image", "experiment"}},
     {"tiny_gltf", {"renderer/scene"}},
+    {"draco/", {"renderer/scene"}},
+    {"meshoptimizer", {"renderer/scene"}},
     {"toml++/", {"protocols"}},
     {"embree", {"renderer/reference"}},
 };

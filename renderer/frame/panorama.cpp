@@ -84,7 +84,7 @@ namespace {
 constexpr int widestSharp = 1024;
 // As wide is the panorama that the roughest surfaces reflect.
 constexpr int narrowest = 32;
-constexpr int lobeSamples = 64;
+constexpr int lobeSamples = 128;
 
 // Half the size. Each pixel is the mean of four, by the area that they have on the sphere.
 Image halved(const Image& from) {
@@ -136,8 +136,8 @@ std::vector<LobeSample> lobe(double roughness, double sourcePixels, std::size_t 
         const double spread = cosine2 * (a2 - 1) + 1,
                      density = a2 / (pi * spread * spread) / 4; // of directions
         const double pixels = sourcePixels / (4 * pi * density * lobeSamples);
-        const double mip = std::clamp(0.5 * std::log2(std::max(pixels, 1.0)) + 1, 0.0,
-                                      static_cast<double>(mips - 1));
+        const double mip =
+            std::clamp(0.5 * std::log2(std::max(pixels, 1.0)), 0.0, static_cast<double>(mips - 1));
         result.push_back(
             {{2 * cosine * sine * std::cos(turn), 2 * cosine * sine * std::sin(turn), up},
              up,

@@ -37,8 +37,7 @@ GltfAccessor::GltfAccessor(const GltfFile& file, const tinygltf::Model& model, i
     const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(type_));
     const auto size = static_cast<std::size_t>(bytes) * static_cast<std::size_t>(components_);
     const auto startOf = [&](int view, std::size_t offset) {
-        const auto& from = model.bufferViews[static_cast<std::size_t>(view)];
-        return file.buffer(static_cast<std::size_t>(from.buffer)).data() + from.byteOffset + offset;
+        return file.view(static_cast<std::size_t>(view)).data() + offset;
     };
     stride_ = size;
     if (accessor.bufferView >= 0) {
@@ -58,6 +57,12 @@ GltfAccessor::GltfAccessor(const GltfFile& file, const tinygltf::Model& model, i
     for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i)
         replaced_[wholeAt(indices + i * width, sparse.indices.componentType)] = values + i * size;
 }
+
+GltfAccessor::GltfAccessor(std::span<const float> values, int components)
+    : first_(std::as_bytes(values).data()),
+      count_(values.size() / static_cast<std::size_t>(components)),
+      stride_(static_cast<std::size_t>(components) * sizeof(float)), components_(components),
+      type_(TINYGLTF_COMPONENT_TYPE_FLOAT) {}
 
 const std::byte* GltfAccessor::element(std::size_t index) const {
     if (!replaced_.empty())

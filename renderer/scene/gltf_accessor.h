@@ -15,11 +15,14 @@ namespace obscura {
 class GltfAccessor {
   public:
     GltfAccessor(const GltfFile& file, const tinygltf::Model& model, int index);
+    // Of floats that lie elsewhere, and stay there.
+    GltfAccessor(std::span<const float> values, int components);
 
     std::size_t count() const { return count_; }
     int components() const { return components_; } // 1 ... 4 for what meshes read
     int componentType() const { return type_; }    // TINYGLTF_COMPONENT_TYPE_...
-    bool normalised() const { return normalised_; }
+    // Reads whole numbers as shares of the greatest one, whatever the file says.
+    void normalise() { normalised_ = true; }
 
     // A component as a number, normalised integers expanded.
     float value(std::size_t element, int component) const;

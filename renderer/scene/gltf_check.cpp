@@ -1,6 +1,5 @@
 #include "renderer/scene/gltf_check.h"
 
-#include "base/error.h"
 #include "renderer/scene/gltf_check_materials.h"
 #include "renderer/scene/gltf_extensions.h"
 #include "renderer/scene/gltf_json.h"
@@ -33,6 +32,8 @@ class Checker : private GltfJson {
         each("buffers", [&](const json& o, const std::string& at) {
             whole(o, "byteLength", at, 1, mostBytes, true);
             text(o, "uri", at);
+            if (const json* packed = extension(o, "EXT_meshopt_compression", at))
+                flag(*packed, "fallback", extensionPath(at, "EXT_meshopt_compression"));
         });
         each("bufferViews", [&](const json& o, const std::string& at) { checkView(o, at); });
         each("accessors", [&](const json& o, const std::string& at) { checkAccessor(o, at); });
@@ -309,11 +310,6 @@ class Checker : private GltfJson {
 };
 
 } // namespace
-
-void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
-              const std::string& message) {
-    throw Error({file.string(), 0, 0, jsonPath}, message);
-}
 
 void checkGltf(const json& root, const std::filesystem::path& file) {
     const GltfJson values(root, file);

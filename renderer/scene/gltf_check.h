@@ -1,16 +1,10 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
+#include "renderer/scene/gltf_json.h"
 
 #include <filesystem>
-#include <functional>
-#include <string>
 
 namespace obscura {
-
-// What every glTF error says: the file, the JSON path ("accessors[3].count"), then the message.
-[[noreturn]] void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
-                           const std::string& message);
 
 // The one place where a glTF file's JSON is trusted or not (glTF 2.0 specification, chapters 3 and
 // 5): every index points into its array; every count, offset, length and stride is a whole number

@@ -5,6 +5,6 @@
 namespace obscura {
 
 // Images, samplers, textures and materials, as part of checkGltf().
-void checkGltfMaterials(const GltfJson& json);
+void checkGltfMaterials(const GltfJson& values);
 
 } // namespace obscura

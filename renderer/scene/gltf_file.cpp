@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "renderer/scene/gltf_check.h"
+#include "renderer/scene/gltf_meshopt.h"
 
 #include <fmt/format.h>
 
@@ -21,6 +22,7 @@ using nlohmann::json;
 namespace {
 
 constexpr std::uintmax_t mostBytes = 0x7fffffff;
+constexpr std::size_t mostUnpacked = std::size_t{1} << 32;
 constexpr int deepest = 64;
 
 std::string readWhole(const fs::path& path, const fs::path& scene, const std::string& jsonPath) {
@@ -98,6 +100,14 @@ std::optional<std::string> base64Decoded(std::string_view text) {
     return bytes;
 }
 
+// Of a buffer or a view, what the extension says of its compression; null where nothing.
+const json* packedOf(const json& object) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end() || !extensions->contains("EXT_meshopt_compression"))
+        return nullptr;
+    return &extensions->at("EXT_meshopt_compression");
+}
+
 } // namespace
 
 GltfFile::GltfFile(const fs::path& path) : path_(path) {
@@ -116,6 +126,7 @@ GltfFile::GltfFile(const fs::path& path) : path_(path) {
     }
     checkGltf(json_, path_);
     readBuffers();
+    readViews();
     readImages();
     Sha256 hash;
     for (const std::string& each : hashed_)
@@ -238,10 +249,13 @@ void GltfFile::readBuffers() {
             bytes = resolve(buffer.at("uri").get<std::string>(), at + ".uri");
         else if (i == 0 && hasBinary_)
             bytes = binary_;
-        else
+        else if (packedOf(buffer)) { // stands in for what is unpacked
+            buffers_.push_back({});
+            continue;
+        } else
             failGltf(path_, at,
                      "expected a uri, found none; only the first buffer of a .glb can do without, "
-                     "and the buffers of EXT_meshopt_compression, which is not supported");
+                     "and one that compressed ones stand in for");
         if (bytes.size() < length)
             failGltf(path_, at + ".byteLength",
                      format("expected at most the {} bytes that are there, found {}", bytes.size(),
@@ -250,19 +264,61 @@ void GltfFile::readBuffers() {
     }
 }
 
+GltfFile::Bytes GltfFile::bytesOf(const json& part, const std::string& jsonPath) const {
+    const auto index = part.at("buffer").get<std::size_t>();
+    const auto offset = static_cast<std::size_t>(part.value("byteOffset", 0.0)),
+               length = static_cast<std::size_t>(part.at("byteLength").get<double>());
+    if (buffers_[index].size() < offset + length)
+        failGltf(path_, jsonPath + ".buffer",
+                 format("expected a buffer with bytes, found buffers[{}], which has none", index));
+    return buffers_[index].subspan(offset, length);
+}
+
+void GltfFile::readViews() {
+    const std::size_t count = json_.contains("bufferViews") ? json_.at("bufferViews").size() : 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const json& view = json_.at("bufferViews")[i];
+        views_.push_back(packedOf(view) ? Bytes() : bytesOf(view, format("bufferViews[{}]", i)));
+    }
+}
+
+void GltfFile::unpack() {
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+        const json& view = json_.at("bufferViews")[i];
+        const json* packed = packedOf(view);
+        if (!packed)
+            continue;
+        const std::string at = format("bufferViews[{}].extensions.EXT_meshopt_compression", i);
+        auto bytes = decodeMeshopt(*packed, bytesOf(*packed, at));
+        if (!bytes)
+            failGltf(path_, at,
+                     format("expected a stream of {} of meshoptimizer, found another, or a damaged "
+                            "one",
+                            packed->at("mode").get<std::string>()));
+        total += bytes->size();
+        if (total > mostUnpacked)
+            failGltf(path_, at,
+                     format("expected at most {} bytes in all compressed views, found more",
+                            mostUnpacked));
+        views_[i] = keep(std::move(*bytes))
+                        .first(static_cast<std::size_t>(view.at("byteLength").get<double>()));
+    }
+}
+
+std::span<const std::byte> GltfFile::image(std::size_t index) const {
+    const json& image = json_.at("images")[index];
+    return image.contains("bufferView") ? view(image.at("bufferView").get<std::size_t>())
+                                        : images_[index];
+}
+
 void GltfFile::readImages() {
     const std::size_t count = json_.contains("images") ? json_.at("images").size() : 0;
     for (std::size_t i = 0; i < count; ++i) {
         const json& image = json_.at("images")[i];
-        if (image.contains("uri")) {
-            images_.push_back(
-                resolve(image.at("uri").get<std::string>(), format("images[{}].uri", i)));
-            continue;
-        }
-        const json& view = json_.at("bufferViews")[image.at("bufferView").get<std::size_t>()];
-        images_.push_back(buffers_[view.at("buffer").get<std::size_t>()].subspan(
-            static_cast<std::size_t>(view.value("byteOffset", 0.0)),
-            static_cast<std::size_t>(view.at("byteLength").get<double>())));
+        images_.push_back(image.contains("uri") ? resolve(image.at("uri").get<std::string>(),
+                                                          format("images[{}].uri", i))
+                                                : Bytes());
     }
 }
 

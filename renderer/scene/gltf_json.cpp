@@ -1,6 +1,6 @@
 #include "renderer/scene/gltf_json.h"
 
-#include "renderer/scene/gltf_check.h"
+#include "base/error.h"
 
 #include <fmt/format.h>
 
@@ -23,6 +23,11 @@ std::string spelt(const nlohmann::json& value) {
 }
 
 } // namespace
+
+void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
+              const std::string& message) {
+    throw Error({file.string(), 0, 0, jsonPath}, message);
+}
 
 std::string GltfJson::join(const std::string& at, const std::string& key) {
     return at.empty() ? key : at + "." + key;

@@ -11,6 +11,10 @@
 
 namespace obscura {
 
+// What every glTF error says: the file, the JSON path ("accessors[3].count"), then the message.
+[[noreturn]] void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
+                           const std::string& message);
+
 // What the checks of a glTF file's JSON are written with (gltf_check.h): a value of the expected
 // kind at a key, or an Error that names file, JSON path, expected and found. `at` is the JSON path
 // of the object that holds the key. An optional key that is missing gives nothing.

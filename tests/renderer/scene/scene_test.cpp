@@ -76,21 +76,22 @@ TEST_F(SceneFile, ReadsMaskAndSides) {
 TEST_F(SceneFile, NamesWhatIsLeftOut) {
     const Scene scene = load("", R"(,"alphaMode":"BLEND","emissiveFactor":[1,0,0])",
                              R"(,"extensionsUsed":["KHR_materials_clearcoat"])");
-    EXPECT_THAT(scene.warnings,
-                testing::UnorderedElementsAre(
-                    "extension KHR_materials_clearcoat is not supported; it is left out",
-                    "material \"m\" is translucent; it is drawn opaque",
-                    "material \"m\" emits light; emission is left out"));
+    EXPECT_THAT(
+        scene.warnings,
+        testing::UnorderedElementsAre(
+            "extension KHR_materials_clearcoat is not supported; it is left out: clear coats do "
+            "not shine",
+            "material \"m\" is translucent; it is drawn opaque",
+            "material \"m\" emits light; emission is left out"));
 }
 
 TEST_F(SceneFile, RefusesWhatItRequiresAndWeCannotShow) {
     EXPECT_THAT(
         errorOf("", "",
-                R"(,"extensionsRequired":["KHR_draco_mesh_compression"],)"
-                R"("extensionsUsed":["KHR_draco_mesh_compression"])"),
-        testing::HasSubstr("t.gltf: extensionsRequired[0]: the scene requires the extension "
-                           "KHR_draco_mesh_compression, which is not supported: its meshes "
-                           "are compressed; export without Draco"));
+                R"(,"extensionsRequired":["KHR_texture_basisu"],)"
+                R"("extensionsUsed":["KHR_texture_basisu"])"),
+        testing::HasSubstr("t.gltf: extensionsRequired: expected extensions that are supported, "
+                           "found 1 that is not: KHR_texture_basisu"));
 }
 
 TEST_F(SceneFile, RefusesMissingAndShortBuffersAndTextures) {
