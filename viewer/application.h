@@ -41,6 +41,7 @@ class Application {
     void frame();
     void open(const SceneChoice& choice);
     void name(const SceneChoice& choice);
+    std::vector<View> storedOf(const View& view);
     void takeNews();
     void takeKeys();
     void press(const KeyPress& key);
@@ -54,6 +55,8 @@ class Application {
     void askForScreenshot();
     void saveScreenshot();
     void addStudy(const Requests& requests);
+    void storePresentView();
+    void forgetChosenView();
     void startTest();
     void say(const std::string& text, bool error = false);
     Wanted wanted() const;
