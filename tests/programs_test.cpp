@@ -51,7 +51,8 @@ TEST(Programs, ExplainThemselves) {
           "obscura-experiment", "obscura-experiment ledger", "obscura-analysis", "obscura-bench",
           "obscura-bench rays", "obscura-bench normals", "obscura-bench passes",
           "obscura-bench sweep", "obscura-bench merge", "obscura-bench page",
-          "obscura-bench ablation", "obscura-bench choose", "obscura-bench stability"}) {
+          "obscura-bench ablation", "obscura-bench choose", "obscura-bench stability",
+          "obscura-view"}) {
         const Outcome outcome = run(std::string(program) + " --help");
         EXPECT_EQ(outcome.status, 0) << program;
         EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << program;

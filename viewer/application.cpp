@@ -4,6 +4,7 @@
 #include "viewer/seen.h"
 
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,9 +53,11 @@ Application::Application(const CommandLine& line)
     : line_(line), window_(line.width, line.height, line.uiScale), state_(stateOf(line)),
       worker_(std::make_unique<Worker>(window_.workerContext(), ViewerWindow::wake,
                                        !window_.sharesWithWorker())) {
+    if (line_.scenes.empty())
+        line_.scenes = ".";
     browser_.folder = fs::current_path();
-    if (!line.scenes.empty() && fs::is_directory(line.scenes))
-        browser_.folder = fs::canonical(line.scenes);
+    if (fs::is_directory(line_.scenes))
+        browser_.folder = fs::canonical(line_.scenes);
     open(line.scene);
 }
 
@@ -119,8 +122,19 @@ Wanted Application::wanted() const {
     return wanted;
 }
 
+// ImGui sees the end of a click in the frame after it, opens a list in the next, and knows its size
+// in the one after that. Whatever else happens has an effect on the frame that follows at most.
+int Application::framesToSettle() const {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool pressed = std::any_of(std::begin(io.MouseClicked), std::end(io.MouseClicked),
+                                     [](bool each) { return each; }) ||
+                         std::any_of(std::begin(io.MouseReleased), std::end(io.MouseReleased),
+                                     [](bool each) { return each; });
+    return pressed || pressed_ ? 4 : 1;
+}
+
 void Application::step(double atMost) {
-    window_.wait(settling_ ? 0 : std::min(atMost, wakeIn_));
+    window_.wait(settling_ > 0 ? 0 : std::min(atMost, wakeIn_));
     frame();
 }
 
@@ -141,8 +155,7 @@ void Application::frame() {
     window_.end();
     uploads_.forget();
     ++frames_;
-    // After anything that happened, ImGui wants one frame more to settle.
-    settling_ = !settling_;
+    settling_ = settling_ > 0 ? settling_ - 1 : framesToSettle();
     if (flying)
         wakeIn_ = std::min(wakeIn_, 0.01);
 }
@@ -154,7 +167,7 @@ Box Application::drawPanels() {
     const bool panels = state_.panels;
     const double top = panels ? std::round(barHeight * scale) : 0;
     const double bottom = panels ? height - std::round(statusHeight * scale) : height;
-    const double side = panels ? std::min(std::round(sideWidth * scale), width * 0.6) : 0;
+    const double side = panels ? std::min(std::round(sideWidth * scale), width * 0.5) : 0;
     const Box area{0, top, width - side, bottom - top};
     Moment moment{ui,
                   state_,

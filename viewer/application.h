@@ -48,6 +48,7 @@ class Application {
     void escape();
     void move(const Hand& hand);
     bool fly();
+    int framesToSettle() const;
     Box drawPanels();
     void carryOut(const Requests& requests);
     void askForScreenshot();
@@ -75,8 +76,9 @@ class Application {
     Hand hand_;
     Box area_;
     double wakeIn_ = 0, lastFly_ = 0;
-    bool settling_ = true;
-    std::string flown_; // keys of flying that were pressed since the last frame
+    int settling_ = 4;     // frames that are still to be drawn, whatever happens
+    bool pressed_ = false; // a key, in this frame
+    std::string flown_;    // keys of flying that were pressed since the last frame
     int frames_ = 0;
     std::unique_ptr<TestRun> test_;
     Uploads uploads_;

@@ -32,7 +32,9 @@ void flip(State& state) {
 
 void Application::takeKeys() {
     flown_.clear();
-    for (const KeyPress& key : window_.takePresses())
+    const std::vector<KeyPress> presses = window_.takePresses();
+    pressed_ = !presses.empty();
+    for (const KeyPress& key : presses)
         if (key.key == gl::Key::escape)
             escape();
         else if (ImGui::GetIO().WantTextInput || browser_.open)

@@ -84,7 +84,8 @@ bool showsSameScene(const View& a, const View& b) {
     return a.file == b.file && a.builtin == b.builtin && a.ground == b.ground;
 }
 
-// All that the condition says. In a test, every technique of the protocol.
+// All that the condition says. In a test, every technique of the protocol and, where no condition
+// is named, every view.
 void takeProtocol(const Protocol& protocol, const Options& options, CommandLine& line) {
     const Condition& condition = conditionOf(protocol, options.condition);
     const View& view = protocol.view(condition.view);
@@ -99,7 +100,7 @@ void takeProtocol(const Protocol& protocol, const Options& options, CommandLine&
         line.level.environment = (protocol.path.parent_path() / line.level.environment).string();
     line.normals = protocol.normals;
     for (const View& each : protocol.views)
-        if (showsSameScene(each, view))
+        if (showsSameScene(each, view) || (line.test && options.condition.empty()))
             line.views.push_back(each);
     if (line.test) {
         line.techniques = protocol.techniques;
@@ -122,6 +123,26 @@ Level levelIn(const std::string& name, const Protocol* protocol) {
             return level;
         }
     return levelNamed(name);
+}
+
+// Camera, radius and exposure, where they are typed.
+void takeView(const Options& options, CommandLine& line) {
+    if (options.camera.size() == 6) {
+        const auto& c = options.camera;
+        line.camera = Camera{
+            {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {0, 1, 0}, options.fovDegrees, options.near};
+        if (const std::string fault = faultOf(*line.camera); !fault.empty())
+            throw Error("--camera: " + fault);
+        line.views.clear();
+    }
+    if (options.radius > 0)
+        line.radius = options.radius;
+    if (options.exposure)
+        line.exposure = *options.exposure;
+    for (View& view : line.views) {
+        view.radius = options.radius > 0 ? options.radius : view.radius;
+        view.exposure = options.exposure.value_or(view.exposure);
+    }
 }
 
 void takeSize(const std::string& text, CommandLine& line) {
@@ -156,17 +177,7 @@ CommandLine resolved(const Options& options) {
         line.level = levelIn(options.level, given);
     if (!options.normals.empty())
         line.normals = static_cast<Normals>(indexIn(normalsNames(), options.normals));
-    if (options.camera.size() == 6) {
-        const auto& c = options.camera;
-        line.camera = Camera{
-            {c[0], c[1], c[2]}, {c[3], c[4], c[5]}, {0, 1, 0}, options.fovDegrees, options.near};
-        if (const std::string fault = faultOf(*line.camera); !fault.empty())
-            throw Error("--camera: " + fault);
-    }
-    if (options.radius > 0)
-        line.radius = options.radius;
-    if (options.exposure)
-        line.exposure = *options.exposure;
+    takeView(options, line);
     if (!options.size.empty())
         takeSize(options.size, line);
     if (!options.layout.empty())
@@ -210,7 +221,8 @@ void addWhat(CLI::App& app, Options& options) {
                    "how far occlusion reaches, metres; default: one that suits the scene")
         ->check(numberFrom(1e-4, 1e4));
     app.add_option("--exposure", options.exposure, "stops")->check(numberFrom(-20, 20));
-    app.add_flag("!--no-textures", line.textures, "everything white and matte");
+    app.add_flag_callback(
+        "--no-textures", [&line] { line.textures = false; }, "everything white and matte");
     app.add_option("--size", options.size,
                    "WIDTHxHEIGHT of the window, or of a test's pictures; default 1280x720");
     app.add_option("--device", line.device, "of a test: one of obscura-render --devices");
@@ -230,7 +242,8 @@ void addWindow(CLI::App& app, Options& options) {
     app.add_option("--ui-scale", line.uiScale, "of letters and panels; default: the screen's")
         ->check(numberFrom(0.5, 4));
     app.add_option("--tab", line.tab, "the panel that is open")->check(CLI::IsMember(tabNames()));
-    app.add_flag("!--no-panels", line.panels, "the pictures alone");
+    app.add_flag_callback(
+        "--no-panels", [&line] { line.panels = false; }, "the pictures alone");
     app.add_flag("--keys", line.help, "with the keys on the screen");
     app.add_option("--picture", line.picture,
                    "save the window as PNG when everything is drawn, and end");
@@ -242,8 +255,8 @@ void addTest(CLI::App& app, Options& options) {
     app.add_flag("--test", line.test,
                  "no window: frames per second of every technique from every camera, to files");
     app.add_option("--cameras", line.cameras,
-                   "of a test: how many are found in the scene, where no protocol and no --camera "
-                   "says which")
+                   "of a test: how many are found in the scene, where neither protocol, --camera, "
+                   "stored views nor the file say which")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     app.add_option("--seconds", line.seconds, "of a test: for each technique, camera and round")

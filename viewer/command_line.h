@@ -36,7 +36,8 @@ struct CommandLine {
     std::filesystem::path picture; // the window is saved there, and the program ends; "": it stays
 
     std::filesystem::path protocol; // "": none
-    std::vector<View> views;        // of the protocol, those of the scene
+    std::vector<View> views;        // of the protocol: those of the scene, or, of a test for which
+                                    // no condition was named, all
 
     bool test = false;
     int cameras = 4; // found in the scene, where nobody says which

@@ -91,7 +91,12 @@ Camera zoomed(const Camera& camera, double factor) {
     return result;
 }
 
-double walkingSpeed(double diagonal) { return diagonal / 12; }
+// To two digits, for it is read.
+double walkingSpeed(double diagonal) {
+    const double speed = diagonal / 12;
+    const double unit = std::pow(10, std::floor(std::log10(speed)) - 1);
+    return std::round(speed / unit) * unit;
+}
 
 double nextSpeed(double speed, double notches) { return speed * std::pow(1.25, notches); }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <system_error>
 
 namespace obscura {
@@ -54,7 +55,7 @@ std::vector<Entry> entriesOf(const fs::path& folder, const std::string& filter) 
 
 std::string sizeOf(std::uintmax_t bytes) {
     const double megabytes = static_cast<double>(bytes) / 1e6;
-    return megabytes < 1 ? fmt::format("{:.0f} kB", static_cast<double>(bytes) / 1e3)
+    return megabytes < 1 ? fmt::format("{:.0f} kB", std::ceil(static_cast<double>(bytes) / 1e3))
                          : fmt::format("{:.1f} MB", megabytes);
 }
 

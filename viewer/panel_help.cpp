@@ -139,9 +139,11 @@ void messagePanel(Moment& moment, Message& message) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                      ImGuiWindowFlags_NoFocusOnAppearing);
     const ImVec2 low = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+    ImGui::PushClipRect(low, {low.x + size.x, low.y + size.y}, false);
     ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + ui.px(4), low.y + size.y},
                                               message.error ? colours::danger : colours::accent,
                                               ui.px(8), ImDrawFlags_RoundCornersLeft);
+    ImGui::PopClipRect();
     ImGui::PushTextWrapPos(width - ui.px(60));
     ImGui::TextUnformatted(message.text.c_str());
     ImGui::PopTextWrapPos();

@@ -74,7 +74,8 @@ void caption(Moment& moment, const PlacedPane& pane, bool right) {
     const float figuresWidth = ImGui::CalcTextSize(figures.c_str()).x;
     const float smallLine = ImGui::GetTextLineHeight();
     ImGui::PopFont();
-    title = fitted(title, room - ui.px(40));
+    if (ImGui::CalcTextSize(title.c_str()).x > room - ui.px(40)) // rather short than cut
+        title = fitted(std::string(settings.technique().id), room - ui.px(40));
     const float line = ImGui::GetTextLineHeight();
     const float width =
         std::max(ImGui::CalcTextSize(title.c_str()).x + ui.px(20), figuresWidth) + ui.px(18);

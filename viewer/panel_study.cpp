@@ -27,6 +27,10 @@ void pathField(Ui& ui, const char* label, std::string& path, const char* tip) {
         tooltip(ui, tip);
 }
 
+std::string viewsOf(const State& state) {
+    return fmt::format("{} view{}", state.views.size(), state.views.size() == 1 ? "" : "s");
+}
+
 void pair(Moment& moment) {
     Ui& ui = moment.ui;
     heading(ui, "To a study");
@@ -43,13 +47,17 @@ void pair(Moment& moment) {
     ImGui::EndDisabled();
     if (button(ui, "Copy settings as TOML", "Scene, light and techniques, for a protocol", -1))
         moment.requests.copySettings = true;
+    ImGui::Dummy({0, ui.px(2)});
     pathField(ui, "Sweep", moment.desk.sweep, "A new file for obscura-bench sweep");
-    if (button(ui,
-               fmt::format("These {} views for a sweep##sweep", moment.state.views.size()).c_str(),
-               "The views of the list, the techniques of the panes\nA study that obscura-bench "
-               "sweep takes; it wants two views or more",
+    const bool several = moment.state.views.size() > 1;
+    ImGui::BeginDisabled(!several);
+    if (button(ui, fmt::format("{} for a sweep##sweep", viewsOf(moment.state)).c_str(),
+               several ? "The views of the list and the techniques of the panes, as a study that "
+                         "obscura-bench sweep takes"
+                       : "A sweep wants two views or more: P stores the present one",
                -1))
         moment.requests.writeSweep = true;
+    ImGui::EndDisabled();
 }
 
 void screenshots(Moment& moment) {
@@ -94,9 +102,11 @@ void test(Moment& moment) {
     Ui& ui = moment.ui;
     State& state = moment.state;
     heading(ui, "Test mode");
-    remark(ui, fmt::format("Frames per second of {} techniques from {} views, in random order, as "
-                           "in the Leeds thesis.",
-                           panesOf(state.layout), state.views.size()));
+    const int panes = panesOf(state.layout);
+    remark(ui,
+           fmt::format("Frames per second of {} technique{} from {}, in random order, as in the "
+                       "Leeds thesis.",
+                       panes, panes == 1 ? "" : "s", viewsOf(state)));
     if (moment.test && !moment.test->finished()) {
         running(moment);
         return;

@@ -71,9 +71,9 @@ void cameraRows(Moment& moment) {
                            near))
         camera.near = near;
     slider(ui,
-           {"Speed", scaleBetween(state.size / 1000, state.size), walkingSpeed(state.size),
-            Unit::metre,
-            "Of flying, in a second\nThe wheel changes it while the right button is held or the "
+           {"Speed (m/s)", scaleBetween(state.size / 1000, state.size), walkingSpeed(state.size),
+            Unit::ratio,
+            "Of flying\nThe wheel changes it while the right button is held or the "
             "cursor is locked; Shift hurries"},
            state.speed);
     const auto text = [](const Vec3& v) {

@@ -134,7 +134,9 @@ std::string meaningOf(const Parameter& parameter) {
             ? fmt::format("off or on, default {}", parameter.value > 0 ? "on" : "off")
             : fmt::format("{}, {} to {}, default {}", spell(parameter.unit), number(parameter.low),
                           number(parameter.high), number(parameter.value));
-    return fmt::format("{}\n{}: {}\nDefault from: {}", parameter.meaning, parameter.name, range,
+    std::string meaning(parameter.meaning);
+    meaning[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(meaning[0])));
+    return fmt::format("{}\n{}: {}\nDefault from: {}", meaning, parameter.name, range,
                        parameter.source);
 }
 

@@ -42,9 +42,14 @@ void expectPair(const Seen& seen) {
 }
 
 std::vector<std::string> notesOf(const Seen& seen) {
-    if (seen.textures)
-        return {};
-    return {"The study shows textures, which are off on the screen."};
+    std::vector<std::string> notes;
+    if (!seen.textures)
+        notes.emplace_back("The study shows textures, which are off on the screen.");
+    if (fs::path(seen.view.file).is_absolute())
+        notes.emplace_back(
+            "The scene is not in the scenes folder (--scenes), so the study names it "
+            "by its whole path, which other machines do not have.");
+    return notes;
 }
 
 TomlFields conditionFields(const Condition& condition) {

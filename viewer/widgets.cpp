@@ -360,7 +360,7 @@ bool choice(Ui& ui, const char* label, std::span<const std::string> words, int& 
     list.AddText({low.x + ui.px(9), y}, colours::text, fitted(now, full - ui.px(34)).c_str());
     list.AddText({high.x - ui.px(18), y}, colours::faint, "▾");
     ImGui::SetNextWindowPos({low.x, high.y + ui.px(3)});
-    ImGui::SetNextWindowSizeConstraints({full, 0}, {ui.px(520), ui.px(420)});
+    ImGui::SetNextWindowSizeConstraints({full, 0}, {ui.px(520), ui.px(540)});
     if (ImGui::BeginPopup("##list")) {
         for (int i = 0; i < static_cast<int>(words.size()); ++i) {
             const std::string& word = words[static_cast<std::size_t>(i)];

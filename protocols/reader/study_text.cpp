@@ -43,36 +43,42 @@ std::string toToml(const Camera& camera) {
     return tomlInline(fields);
 }
 
+// Bindings name all members, so that a new one does not compile before it is written.
 TomlFields fieldsOf(const View& view) {
-    TomlFields fields{view.file.empty() ? std::pair{std::string("builtin"), tomlText(view.builtin)}
-                                        : std::pair{std::string("file"), tomlText(view.file)},
-                      {"camera", toToml(view.camera)}};
-    if (view.radius > 0)
-        fields.emplace_back("radius", tomlNumber(view.radius));
-    if (view.exposure != 0)
-        fields.emplace_back("exposure", tomlNumber(view.exposure));
-    if (view.ground)
-        fields.emplace_back("ground", tomlInline(fieldsOf(*view.ground)));
+    const auto& [name, file, builtin, camera, radius, exposure, ground, place] = view;
+    TomlFields fields{file.empty() ? std::pair{std::string("builtin"), tomlText(builtin)}
+                                   : std::pair{std::string("file"), tomlText(file)},
+                      {"camera", toToml(camera)}};
+    if (radius > 0)
+        fields.emplace_back("radius", tomlNumber(radius));
+    if (exposure != 0)
+        fields.emplace_back("exposure", tomlNumber(exposure));
+    if (ground)
+        fields.emplace_back("ground", tomlInline(fieldsOf(*ground)));
     return fields;
 }
 
 TomlFields fieldsOf(const Level& level) {
+    const auto& [name, ambient, background, sky, environment, sun, sceneLights, curve, white,
+                 occludeDirect, place] = level;
     TomlFields fields;
-    if (level.ambient) {
-        fields.emplace_back("ambient", tomlTriple(*level.ambient));
-        fields.emplace_back("background", tomlTriple(level.background));
-    } else if (level.sky) {
-        fields.emplace_back("sky", tomlInline(fieldsOf(*level.sky)));
+    if (ambient) {
+        fields.emplace_back("ambient", tomlTriple(*ambient));
+        fields.emplace_back("background", tomlTriple(background));
+    } else if (sky) {
+        fields.emplace_back("sky", tomlInline(fieldsOf(*sky)));
     } else {
-        fields.emplace_back("environment", tomlText(level.environment));
+        fields.emplace_back("environment", tomlText(environment));
     }
-    if (level.sun)
-        fields.emplace_back("sun", tomlInline(fieldsOf(*level.sun)));
-    if (level.curve != (level.ambient ? Curve::clamp : Curve::reinhard))
-        fields.emplace_back("curve", level.curve == Curve::clamp ? "\"clamp\"" : "\"reinhard\"");
-    if (level.white != Level().white)
-        fields.emplace_back("white", tomlNumber(level.white));
-    if (level.occludeDirect)
+    if (sun)
+        fields.emplace_back("sun", tomlInline(fieldsOf(*sun)));
+    if (sceneLights)
+        fields.emplace_back("sceneLights", "true");
+    if (curve != (ambient ? Curve::clamp : Curve::reinhard))
+        fields.emplace_back("curve", tomlText(curveNames()[static_cast<std::size_t>(curve)]));
+    if (white != Level().white)
+        fields.emplace_back("white", tomlNumber(white));
+    if (occludeDirect)
         fields.emplace_back("occludeDirect", "true");
     return fields;
 }

@@ -56,7 +56,7 @@ TEST(Slider, NamesAreReadAsWords) {
 
 TEST(Slider, TooltipsGiveMeaningRangeDefaultAndSource) {
     const Parameter bias{"bias", Unit::ratio, "depth that is ignored", 0.02f, 0, 1, "Puri 2024"};
-    EXPECT_EQ(meaningOf(bias), "depth that is ignored\nbias: ratio, 0 to 1, default 0.02\n"
+    EXPECT_EQ(meaningOf(bias), "Depth that is ignored\nbias: ratio, 0 to 1, default 0.02\n"
                                "Default from: Puri 2024");
 }
 

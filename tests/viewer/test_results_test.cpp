@@ -149,6 +149,22 @@ TEST(CommandLine, AProtocolSaysAllOfItsCondition) {
     EXPECT_EQ(other.layout, Layout::sideBySide);
 }
 
+TEST(CommandLine, ATestHasEveryViewAndTechniqueOfItsProtocol) {
+    const std::string file = OBSCURA_SOURCE "/protocols/ladder.toml";
+    const CommandLine all = parsed({"--test", "--protocol", file, "--radius", "0.3"});
+    EXPECT_EQ(all.views.size(), 2u);
+    EXPECT_EQ(all.views[1].radius, 0.3);
+    EXPECT_EQ(all.views[1].exposure, 0.5);
+    EXPECT_THAT(namesOf(all.techniques),
+                ElementsAre("none", "cheap", "fair")); // rays take no frame
+    EXPECT_EQ(parsed({"--test", "--protocol", file, "--condition", "figures-sky-none-fair"})
+                  .views.at(0)
+                  .builtin,
+              "figures");
+    EXPECT_TRUE(parsed({"--test", "--protocol", file, "--camera", "0", "1", "2", "0", "1", "0"})
+                    .views.empty());
+}
+
 TEST(CommandLine, SaysWhatIsWrong) {
     using test::errorOf;
     EXPECT_THAT(errorOf([] { parsed({"nowhere.gltf"}); }), HasSubstr("\"nowhere.gltf\""));

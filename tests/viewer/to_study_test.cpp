@@ -176,9 +176,8 @@ TEST(ToStudy, NamesThatAreTakenGetNumbers) {
         names.push_back(level.name);
     for (const TechniqueSetting& technique : protocol.techniques)
         names.push_back(technique.name);
-    EXPECT_THAT(names,
-                ElementsAre("atrium-camera-1", "atrium-camera-1-2", "moderate", "moderate-2",
-                            "crytek16", "gtao-low", "gtao-low-tuned", "gtao-low-tuned-2"));
+    EXPECT_THAT(names, ElementsAre("atrium-camera-1", "atrium-camera-1-2", "moderate", "moderate-2",
+                                   "crytek16", "gtao-low", "gtao-low-tuned", "gtao-low-tuned-2"));
     expectShows(protocol, third.condition, other);
 }
 
@@ -214,6 +213,10 @@ TEST(ToStudy, WhatTheStudyShowsOtherwiseIsSaid) {
     const Added result =
         withPair(protocolText(sample(), "mine", "/studies"), "/studies/mine.toml", seen);
     EXPECT_THAT(result.notes, ElementsAre(HasSubstr("textures"), HasSubstr("64 x 36, wider")));
+    seen.view.builtin.clear();
+    seen.view.file = "/elsewhere/room.glb";
+    EXPECT_THAT(withPair(result.text, "/studies/mine.toml", seen).notes,
+                testing::Contains(HasSubstr("not in the scenes folder")));
 }
 
 TEST(ToStudy, AFileIsWrittenWholeOrNotAtAll) {

@@ -109,8 +109,13 @@ TEST(StudyText, LevelsReadBack) {
 
     Level image;
     image.environment = "skies/a.hdr";
+    image.sceneLights = true;
     EXPECT_EQ(readLevel(image).environment, "skies/a.hdr");
-    EXPECT_EQ(readLevel(image).curve, Curve::reinhard);
+    EXPECT_TRUE(readLevel(image).sceneLights);
+    for (const Curve curve : {Curve::clamp, Curve::reinhard, Curve::aces, Curve::neutral}) {
+        image.curve = curve;
+        EXPECT_EQ(readLevel(image).curve, curve);
+    }
 }
 
 TEST(StudyText, ATechniqueReadsBackAsTheSameFloats) {
