@@ -77,6 +77,14 @@ void Application::name(const SceneChoice& choice) {
     window_.setTitle("Obscura – " + nameOf(choice));
 }
 
+// The found view, for pictures of this shape.
+void Application::frameScene() {
+    const auto [width, height] = pictureSize(state_.layout, area_, 0, 1);
+    state_.view.camera = fitted(opened_->framing, static_cast<double>(width) / height);
+    state_.views.front().camera = state_.view.camera;
+    state_.viewAt = 0;
+}
+
 // Views that cannot be read are no reason not to show the scene.
 std::vector<View> Application::storedOf(const View& view) try {
     return storedViews(viewsFolder(), view);
@@ -103,6 +111,7 @@ void Application::takeNews() {
         adopt(state_, *opened, storedOf(state_.view));
         for (const View& view : line_.views)
             state_.views.push_back(view);
+        frameScene();
         if (line_.camera)
             state_.view.camera = *line_.camera;
         if (line_.radius)

@@ -43,6 +43,7 @@ class Application {
     void name(const SceneChoice& choice);
     std::vector<View> storedOf(const View& view);
     void takeNews();
+    void frameScene();
     void takeKeys();
     void press(const KeyPress& key);
     void pressControl(const KeyPress& key);

@@ -58,7 +58,7 @@ void Application::carryOut(const Requests& requests) try {
     if (requests.browse)
         browser_.open = true;
     if (requests.frame && opened_)
-        state_.view.camera = opened_->camera;
+        frameScene();
     if (requests.copy) {
         window_.copyText(*requests.copy);
         say("Copied: " + *requests.copy);

@@ -39,9 +39,9 @@ void drawPicture(const Moment& moment, const PlacedPane& pane) {
                        magnification.factor < 2 && picture->width != std::lround(pane.place.width));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(lowOf(pane.clip), highOf(pane.clip), true);
-    list.AddImage(reinterpret_cast<ImTextureID>( // ImGui carries numbers as pointers
-                      static_cast<std::uintptr_t>(texture.name())),
-                  lowOf(pane.place), highOf(pane.place),
+    // ImGui carries numbers as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name()));
+    list.AddImage(id, lowOf(pane.place), highOf(pane.place),
                   {static_cast<float>(part.x), static_cast<float>(1 - part.y)},
                   {static_cast<float>(part.right()), static_cast<float>(1 - part.bottom())});
     list.PopClipRect();
