@@ -158,11 +158,14 @@ void Application::step(double atMost) {
 
 void Application::frame() {
     window_.begin();
+    const bool panels = state_.panels;
     takeNews();
     takeKeys();
     for (const fs::path& path : window_.takeDropped())
         requests_.open = SceneChoice{path.string(), "", {}};
     area_ = drawPanels();
+    if (panels && !state_.panels)
+        say("Tab brings the panels back, F1 shows all keys.");
     const bool flying = fly();
     carryOut(std::exchange(requests_, {}));
     saveScreenshot();
@@ -209,6 +212,11 @@ Box Application::drawPanels() {
     browserPanel(moment, browser_);
     if (state_.help)
         helpPanel(moment);
+    if (!message_.text.empty() && !message_.error) {
+        ui.wake(std::max(message_.until - window_.now(), 0.0) + 0.01);
+        if (window_.now() > message_.until)
+            message_.text.clear();
+    }
     messagePanel(moment, message_);
     places_ = std::move(ui.places);
     wakeIn_ = ui.wakeIn;
@@ -251,7 +259,11 @@ void Application::run() {
     }
 }
 
-void Application::say(const std::string& text, bool error) { message_ = {text, error}; }
+void Application::say(const std::string& text, bool error) {
+    const double seconds =
+        3 + 0.06 * static_cast<double>(text.size()); // at some 17 letters a second
+    message_ = {text, error, window_.now() + seconds};
+}
 
 int runWindow(const CommandLine& line) {
     Application application(line);

@@ -55,10 +55,11 @@ struct Browser {
     int chosen = -1;
 };
 
-// A message that stays until it is closed, or the next.
+// A message: an error stays until it is closed or another comes, others until they have been read.
 struct Message {
     std::string text;
     bool error = false;
+    double until = 0; // the window's time at which it goes by itself, unless an error
 };
 
 // What panels see in one frame, and what they may change.
