@@ -13,9 +13,11 @@ namespace {
 using Triangles = std::vector<std::uint32_t>;
 
 constexpr int points = 4096;
-constexpr double tail = 0.005;  // of the area, beyond each face of the box around most of it
-constexpr double backdrop = 3;  // times as large as all else
-constexpr std::size_t few = 12; // triangles that are too few to be all that matters
+constexpr double areaTail = 0.005;   // of the area, beyond each face of the box around most of it
+constexpr double detailTail = 0.025; // and of the triangles
+constexpr double small = 1.0 / 3;    // part of the scene's size
+constexpr double backdrop = 3;       // times as large as all else
+constexpr std::size_t few = 12;      // triangles that are too few to be all that matters
 
 glm::vec3 corner(const Scene& scene, std::uint32_t index) {
     return scene.vertices[scene.indices[index]].position;
@@ -54,14 +56,14 @@ Triangles withArea(const Scene& scene) {
     return result;
 }
 
-// The box that all but the tails of the area lie in.
-Bounds coreOf(const Scene& scene, const Triangles& triangles) {
-    const std::vector<SurfacePoint> spread = surfacePoints(scene, triangles, points);
-    const auto out = static_cast<std::ptrdiff_t>(tail * static_cast<double>(spread.size()));
+// The box that all but the tails of area or triangles lie in.
+Bounds coreOf(const Scene& scene, const Triangles& triangles, Spread spread, double tail) {
+    const std::vector<SurfacePoint> all = surfacePoints(scene, triangles, points, spread);
+    const auto out = static_cast<std::ptrdiff_t>(tail * static_cast<double>(all.size()));
     Bounds core;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<float> values;
-        for (const SurfacePoint& point : spread)
+        for (const SurfacePoint& point : all)
             values.push_back(point.position[axis]);
         std::sort(values.begin(), values.end());
         core.low[axis] = *(values.begin() + out);
@@ -73,7 +75,7 @@ Bounds coreOf(const Scene& scene, const Triangles& triangles) {
 // Walks outwards from the box around most of the area; what lies beyond a gap as wide as that box
 // is crumbs.
 Triangles withoutCrumbs(const Scene& scene, const Triangles& triangles) {
-    const Bounds core = coreOf(scene, triangles);
+    const Bounds core = coreOf(scene, triangles, Spread::byArea, areaTail);
     struct Outside {
         float nearest, farthest; // from the core, along some axis
         std::uint32_t first;
@@ -124,21 +126,44 @@ Triangles withoutBackdrop(const Scene& scene, const Triangles& triangles) {
     return triangles;
 }
 
+// What is in or touches the small part of the scene where nearly all triangles are, if there is
+// one, and is not much larger than that.
+Triangles withoutPlainParts(const Scene& scene, const Triangles& triangles) {
+    const Bounds core = coreOf(scene, triangles, Spread::byTriangle, detailTail);
+    const double size = diagonal(core);
+    if (!(size < small * diagonal(boundsOf(scene, triangles))))
+        return triangles;
+    const auto around = static_cast<float>(0.1 * size);
+    Triangles kept;
+    for (const std::uint32_t first : triangles) {
+        const Bounds at = boundsOf(scene, first);
+        const bool near = glm::all(glm::lessThan(at.low, core.high + around)) &&
+                          glm::all(glm::greaterThan(at.high, core.low - around));
+        if (near && diagonal(at) < size)
+            kept.push_back(first);
+    }
+    return kept.empty() ? triangles : kept;
+}
+
 } // namespace
 
 double diagonal(const Bounds& bounds) {
     return glm::distance(glm::dvec3(bounds.low), glm::dvec3(bounds.high));
 }
 
-std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Triangles& triangles, int count) {
-    double area = 0;
+std::vector<SurfacePoint> surfacePoints(const Scene& scene, const Triangles& triangles, int count,
+                                        Spread spread) {
+    const auto weight = [&](std::uint32_t first) {
+        return spread == Spread::byArea ? areaOf(scene, first) : 1;
+    };
+    double all = 0;
     for (const std::uint32_t first : triangles)
-        area += areaOf(scene, first);
+        all += weight(first);
     std::vector<SurfacePoint> result;
     double before = 0;
     for (const std::uint32_t first : triangles) {
-        before += areaOf(scene, first);
-        while (static_cast<double>(result.size()) + 0.5 < before / area * count) {
+        before += weight(first);
+        while (static_cast<double>(result.size()) + 0.5 < before / all * count) {
             // Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": R2.
             const auto i = static_cast<double>(result.size());
             auto u = static_cast<float>(std::fmod(0.5 + i * 0.7548776662466927, 1)),
@@ -162,10 +187,11 @@ Extent extentOf(const Scene& scene) {
                     "area; export it with its meshes");
     Extent extent;
     extent.wholeTriangles = withoutCrumbs(scene, all);
-    extent.subjectTriangles = withoutBackdrop(scene, extent.wholeTriangles);
-    extent.backdrop = extent.subjectTriangles.size() < extent.wholeTriangles.size();
+    extent.subjectTriangles =
+        withoutPlainParts(scene, withoutBackdrop(scene, extent.wholeTriangles));
+    extent.surroundings = extent.subjectTriangles.size() < extent.wholeTriangles.size();
     extent.crumbs = extent.wholeTriangles.size() < all.size();
-    if (extent.backdrop) { // before it, crumbs may have been nothing out of the way
+    if (extent.surroundings) { // before them, crumbs may have been nothing out of the way
         const Triangles kept = withoutCrumbs(scene, extent.subjectTriangles);
         extent.crumbs |= kept.size() < extent.subjectTriangles.size();
         extent.subjectTriangles = kept;

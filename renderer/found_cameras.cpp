@@ -21,6 +21,7 @@ constexpr int raysToFind = 8, raysToMeasure = 16; // of a pixel
 constexpr double fovDegrees = 55;
 constexpr double share = 1.0 / 16;            // of the picture's height
 constexpr double hardly = 0.05, mostly = 0.5; // occluded, on average
+constexpr double most = 4;                    // times the share, in doubling
 constexpr int mostSteps = 4;
 
 Vec3 arrayOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
@@ -193,11 +194,11 @@ SuggestedRadius suggestedRadius(const Sight& sight, const RayTracer& tracer,
     double radius = wanted, occlusion = meanOcclusion(seen, tracer, radius);
     for (int step = 0; step < mostSteps && (occlusion < hardly || occlusion > mostly); ++step) {
         const double next = radius * (occlusion < hardly ? 2 : 0.5);
-        if (next < lowestRadius || next > highestRadius)
+        if (next < lowestRadius || next > std::min(most * wanted, highestRadius))
             break;
         const double then = meanOcclusion(seen, tracer, next);
-        if (next > radius ? then > mostly : then < hardly)
-            break; // from one side to the other
+        if (next > radius ? then > mostly || then <= occlusion : then < hardly)
+            break; // from one side to the other, or where there is nothing more to meet
         radius = next;
         occlusion = then;
     }

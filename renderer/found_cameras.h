@@ -23,8 +23,9 @@ std::vector<Camera> foundCameras(const Sight& sight, const RayTracer& tracer, do
 // ten, nearest to a sixteenth of the height of what cameras see at their median depth. That is
 // small enough for techniques to gather from nearby pixels (34 of 540) and for the picture's
 // borders to matter little, and large enough to be seen. Where the scene is hardly occluded within
-// it, it is doubled, and where most of it is dark, halved, as long as that lasts. Studies take
-// radii from 0.1 mm to 10 km, so it is one of these.
+// it, it is doubled (to a quarter of the height at most), and where most of it is dark, halved, as
+// long as that lasts and helps. Studies
+// take radii from 0.1 mm to 10 km, so it is one of these.
 struct SuggestedRadius {
     double metres = 0;
     std::string why;

@@ -27,9 +27,10 @@ constexpr int pictureHeight = 27; // of the small pictures that are looked at
 constexpr double indoorFov = 60, outdoorFov = 40;
 constexpr double margin = 0.88;        // of the picture, for the whole of an object
 constexpr int places = 384, stood = 8; // where somebody could stand, and where he looks around
-constexpr int points = 512;            // of surfaces, to tell how much is seen
+constexpr int points = 1024;           // of surfaces, to tell how much is seen
 constexpr double closed = 0.75;        // of directions that meet something, in a room
 constexpr double eyeHeight = 1.6;      // metres
+constexpr double elbowRoom = 0.05;     // of the scene\'s size, where one would rather stand
 constexpr double roomOfThings = 12;    // sizes of what stands in it, to be more than a backdrop
 
 glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
@@ -100,13 +101,23 @@ struct Look {
     double eye = 0;  // metres above the floor; 0 where there is none
 };
 
+// What matters of a surface is half its area, half its detail: by area alone, bare walls behind the
+// scenes count for more than all that stands in it.
+std::vector<SurfacePoint> pointsOf(const Scene& scene,
+                                   const std::vector<std::uint32_t>& triangles) {
+    std::vector<SurfacePoint> result = surfacePoints(scene, triangles, points / 2, Spread::byArea);
+    const auto detail = surfacePoints(scene, triangles, points / 2, Spread::byTriangle);
+    result.insert(result.end(), detail.begin(), detail.end());
+    return result;
+}
+
 // Looks for cameras in one scene.
 class Scout {
   public:
     Scout(const Scene& scene, std::uint64_t seed, double aspect)
         : sight_(scene), extent_(extentOf(scene)), seed_(seed), aspect_(aspect),
-          whole_(surfacePoints(scene, extent_.wholeTriangles, points)),
-          subject_(surfacePoints(scene, extent_.subjectTriangles, points)) {}
+          whole_(pointsOf(scene, extent_.wholeTriangles)),
+          subject_(pointsOf(scene, extent_.subjectTriangles)) {}
 
     const Sight& sight() const { return sight_; }
     const Extent& extent() const { return extent_; }
@@ -122,7 +133,7 @@ class Scout {
   private:
     struct Stand {
         glm::vec3 eye{0};
-        double seen = 0, height = 0;
+        double seen = 0, height = 0, rank = 0;
     };
 
     double seenFrom(const glm::vec3& eye, const std::vector<SurfacePoint>& of) const;
@@ -201,7 +212,7 @@ bool isRoom(const Around& around, double size) {
 std::optional<Scout::Stand> Scout::standAt(const glm::vec3& point) const {
     const glm::vec3 up(0, 1, 0);
     const double size = diagonal(extent_.whole);
-    Stand stand{point, 0, 0};
+    Stand stand{point};
     const auto floor = sight_.along(point, -up);
     if (floor && floor->faceNormal.y > 0.7f) {
         const glm::vec3 foot = point - up * (floor->distance - static_cast<float>(1e-5 * size));
@@ -211,9 +222,11 @@ std::optional<Scout::Stand> Scout::standAt(const glm::vec3& point) const {
         stand.height = std::max(std::min(eyeHeight, 0.55 * high), high / 8);
         stand.eye = foot + up * static_cast<float>(stand.height);
     }
-    if (!isRoom(around(sight_, stand.eye), size))
+    const Around walls = around(sight_, stand.eye);
+    if (!isRoom(walls, size))
         return {};
     stand.seen = seenFrom(stand.eye, whole_);
+    stand.rank = stand.seen * std::min(1.0, walls.nearest / (elbowRoom * size));
     return stand;
 }
 
@@ -233,7 +246,7 @@ std::vector<Scout::Stand> Scout::stands() const {
         if (stand)
             found.push_back(*stand);
     std::stable_sort(found.begin(), found.end(),
-                     [](const Stand& a, const Stand& b) { return a.seen > b.seen; });
+                     [](const Stand& a, const Stand& b) { return a.rank > b.rank; });
     std::vector<Stand> taken;
     for (const Stand& stand : found)
         if (taken.size() < stood &&
@@ -260,7 +273,8 @@ Look Scout::lookFrom(const Stand& stand) const {
                         size * glm::normalize(glm::dvec3(std::sin(turn), rise, std::cos(turn))));
             const Glimpse at = glimpse(sight_, camera, aspect_, size);
             const double score = at.variety * at.shown * at.shown *
-                                 std::min(1.0, at.near / (0.04 * size)) * std::sqrt(stand.seen);
+                                 std::min(1.0, at.near / (0.04 * size)) *
+                                 std::min(1.0, at.middle / (0.25 * size)) * std::sqrt(stand.seen);
             if (score > best.score) {
                 best.score = score;
                 best.camera = camera;
@@ -270,7 +284,7 @@ Look Scout::lookFrom(const Stand& stand) const {
 }
 
 std::optional<Look> Scout::indoors() const {
-    if (extent_.backdrop && diagonal(extent_.whole) > roomOfThings * diagonal(extent_.subject))
+    if (extent_.surroundings && diagonal(extent_.whole) > roomOfThings * diagonal(extent_.subject))
         return {};
     const std::vector<Stand> at = stands();
     std::vector<Look> looks(at.size());
@@ -332,7 +346,7 @@ Look Scout::outdoors() const {
         looks[i].seen = seenFrom(eye, whole_);
         const double seen = seenFrom(eye, subject_);
         const bool threeQuarter = std::abs(std::sin(2 * turn)) > 0.1;
-        looks[i].score = seen * (1 + 0.25 * std::cos(turn)) * (threeQuarter ? 1.1 : 1);
+        looks[i].score = seen * (1 + 0.25 * std::cos(turn)) * (threeQuarter ? 1.25 : 1);
     });
     for (const Look& look : looks)
         if (look.score > found.score)
@@ -345,6 +359,12 @@ std::optional<Look> Scout::own(const NamedCamera& named, double least) const {
         return {};
     Look look;
     look.camera = named.camera;
+    // Files give a camera's own upward direction; where it is not rolled, that of the world will
+    // do.
+    const glm::dvec3 ahead = glm::normalize(vec(look.camera.target) - vec(look.camera.position)),
+                     right = glm::normalize(glm::cross(ahead, vec(look.camera.up)));
+    if (std::abs(right.y) < 1e-4 && look.camera.up[1] > 0)
+        look.camera.up = {0, 1, 0};
     const Glimpse at = glimpse(sight_, named.camera, aspect_, diagonal(extent_.whole));
     look.seen = seenFrom(glm::vec3(vec(named.camera.position)), whole_);
     if (at.shown < 0.12 || look.seen < least)
@@ -355,8 +375,8 @@ std::optional<Look> Scout::own(const NamedCamera& named, double least) const {
 // To a ten-thousandth of `size`, or a little finer, so that a person can read and type it.
 Vec3 rounded(const Vec3& v, double size) {
     const double per = std::pow(10, std::ceil(-std::log10(size * 1e-4)));
-    return {std::round(v[0] * per) / per, std::round(v[1] * per) / per,
-            std::round(v[2] * per) / per};
+    const auto round = [&](double x) { return std::round(x * per) / per + 0.0; }; // no -0
+    return {round(v[0]), round(v[1]), round(v[2])};
 }
 
 std::string percent(double share) { return fmt::format("{:.0f} %", 100 * share); }
@@ -397,9 +417,9 @@ Framing framing(const Scene& scene, const RayTracer& tracer, std::uint64_t seed,
         }
     if (extent.crumbs)
         result.why += " What is small and far from everything else was left out.";
-    if (extent.backdrop && !result.inside)
-        result.why += " So was what is several times as large as everything else together, such "
-                      "as a floor.";
+    if (extent.surroundings && !result.inside)
+        result.why += " The picture is of where its detail is; what is large and plain around it, "
+                      "such as a floor, may reach beyond.";
     const double size = diagonal(result.inside ? extent.whole : extent.subject);
     result.camera = chosen.camera;
     const Glimpse at = glimpse(scout.sight(), result.camera, aspect, size);

@@ -4,6 +4,7 @@
 #include "renderer/builtin/builtin.h"
 #include "renderer/compare.h"
 #include "renderer/framing.h"
+#include "renderer/levels.h"
 #include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
 #include "renderer/techniques/document.h"
@@ -91,20 +92,6 @@ Recipe recipeOfProtocol(const Options& options, SceneHashes& scenes, const gl::D
                             options.condition, suggestion(options.condition, ids)));
 }
 
-Level levelOf(const std::string& name) {
-    Level level;
-    level.name = name;
-    if (name == "low") {
-        level.ambient = Vec3{1, 1, 1};
-        level.curve = Curve::clamp;
-        return level;
-    }
-    level.sky = Sky{};
-    if (name == "high")
-        level.sun = Sun{62, 66, {4, 3.8, 3.4}};
-    return level;
-}
-
 // Camera and radius that suit the view's scene, unless the options say otherwise; and what to type
 // for the same again.
 void frame(View& view, const Options& options, const Folders& folders) {
@@ -115,9 +102,10 @@ void frame(View& view, const Options& options, const Folders& folders) {
     view.camera.near = options.near.value_or(found.near);
     view.radius = options.radius.value_or(found.radius);
     const Camera& camera = view.camera;
-    fmt::print("{}\ncamera = {}\nradius = {}\n--camera {} {} --fov {} --near {} --radius {}\n",
+    fmt::print("{}\ncamera = {}\nradius = {}\n--camera {} {} --fov {} --near {} --radius {}{}\n",
                found.why, toToml(camera), view.radius, fmt::join(camera.position, " "),
-               fmt::join(camera.target, " "), camera.fovDegrees, camera.near, view.radius);
+               fmt::join(camera.target, " "), camera.fovDegrees, camera.near, view.radius,
+               camera.up == Camera().up ? "" : "  (these options have no \"up\")");
 }
 
 // One view put together on the command line.
@@ -151,7 +139,7 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     }
     view.exposure = options.exposure;
     protocol.views.push_back(view);
-    protocol.levels.push_back(levelOf(options.level));
+    protocol.levels.push_back(levelNamed(options.level));
     TechniqueSetting setting{"technique", options.techniqueId, {}, {}};
     if (!options.preset.empty())
         setting.preset = {options.preset, {}};
@@ -277,7 +265,7 @@ int run(int argc, char** argv) {
         ->check(numberFrom(-32, 32))
         ->capture_default_str();
     app.add_option("--level", options.level, "low, moderate or high")
-        ->check(CLI::IsMember({"low", "moderate", "high"}))
+        ->check(CLI::IsMember(levelNames()))
         ->capture_default_str();
     app.add_option("--technique", options.techniqueId, "id of --list")->capture_default_str();
     app.add_option("--preset", options.preset, "a preset of --describe; --set overrides it");

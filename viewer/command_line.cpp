@@ -255,8 +255,8 @@ void addTest(CLI::App& app, Options& options) {
     app.add_flag("--test", line.test,
                  "no window: frames per second of every technique from every camera, to files");
     app.add_option("--cameras", line.cameras,
-                   "of a test: how many are found in the scene, where no protocol and no --camera "
-                   "says which")
+                   "of a test: how many are found in the scene, where neither protocol, --camera, "
+                   "stored views nor the file say which")
         ->check(CLI::Range(1, 64))
         ->capture_default_str();
     app.add_option("--seconds", line.seconds, "of a test: for each technique, camera and round")

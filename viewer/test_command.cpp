@@ -5,6 +5,7 @@
 #include "renderer/framing.h"
 #include "renderer/reference/sight.h"
 #include "renderer/render.h"
+#include "viewer/presets.h"
 #include "viewer/test_mode.h"
 
 #include <fmt/format.h>
@@ -30,6 +31,8 @@ std::vector<View> foundViews(const View& like, const CommandLine& line) {
     };
     if (line.camera)
         add("camera", *line.camera);
+    else if (auto stored = storedViews(viewsFolder(), like); !stored.empty())
+        views = std::move(stored);
     else if (scene.cameras.size() >= 2)
         for (std::size_t i = 0; i < scene.cameras.size(); ++i)
             add(fmt::format("{} {}", i + 1, scene.cameras[i].name), scene.cameras[i].camera);

@@ -106,6 +106,8 @@ void addRoom(Scene& scene, vec3 low, vec3 high) {
     addBox(scene, low, high);
     for (std::size_t i = first; i < scene.indices.size(); i += 3)
         std::swap(scene.indices[i], scene.indices[i + 1]);
+    for (std::size_t i = scene.vertices.size() - 24; i < scene.vertices.size(); ++i)
+        scene.vertices[i].normal *= -1.0f;
 }
 
 Scene furnishedRoom() {
@@ -182,6 +184,21 @@ TEST(Framing, LooksAtWhatStandsOnAHugeFloor) {
         EXPECT_GT(dark, 0.02);
         EXPECT_LT(dark, 0.5);
     }
+}
+
+// A stage of a few large boxes, with one thing on it that somebody has modelled.
+TEST(Framing, LooksAtWhereTheDetailIs) {
+    Scene scene;
+    addBall(scene, 0.5f, 64);
+    const std::size_t ball = scene.vertices.size();
+    for (int i = 0; i < 6; ++i) {
+        addBox(scene, vec3(2 * i - 6, -0.7f, -4), vec3(2 * i - 4, -0.5f, 4));
+        addBox(scene, vec3(2 * i - 6, -0.5f, -4), vec3(2 * i - 5.5f, 3, -3.5f));
+    }
+    const Framing found = framed(scene);
+    SCOPED_TRACE(found.why);
+    expectWhole(scene, ball, found.camera);
+    expectNothingCut(scene, found);
 }
 
 TEST(Framing, LooksAtWhatIsUnderTheDomeOfASky) {
@@ -295,7 +312,7 @@ TEST(Framing, ShowsThinPlants) {
     SCOPED_TRACE(found.why);
     expectWhole(scene, scene.vertices.size(), found.camera);
     expectNothingCut(scene, found);
-    EXPECT_LT(found.radius, 0.2);
+    EXPECT_LT(found.radius, 0.25); // though next to nothing is occluded
 }
 
 TEST(Framing, PrefersACameraOfTheFilesThatShowsSomething) {
@@ -306,12 +323,16 @@ TEST(Framing, PrefersACameraOfTheFilesThatShowsSomething) {
     into.position = {-3.5, 2, 2.5};
     into.target = {-2.8, 1.8, 1.9};
     into.fovDegrees = 70;
+    into.up = {0.21, 0.94, -0.18}; // not rolled
     scene.cameras = {{"lost", away}, {"corner", into}};
     const Framing found = framed(scene);
     EXPECT_EQ(found.camera.position, into.position);
     EXPECT_EQ(found.camera.fovDegrees, 70);
+    EXPECT_EQ(found.camera.up, (Vec3{0, 1, 0}));
     EXPECT_TRUE(found.inside);
     EXPECT_THAT(found.why, HasSubstr("the file's own, \"corner\""));
+    scene.cameras[1].camera.up = {0.3, 0.9, 0.3};
+    EXPECT_EQ(framed(scene).camera.up, (Vec3{0.3, 0.9, 0.3}));
 }
 
 TEST(Framing, IsTheSameEachTime) {
