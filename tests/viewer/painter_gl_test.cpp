@@ -92,7 +92,7 @@ TEST_F(PainterTest, NothingThatIsSeenIsLeftOut) {
     Wanted wanted = wantedOf(1, {settingsOf("none")});
     for (const double side : {-3.0, 0.3, 2.0}) {
         wanted.view.camera.position = {side, 0.7, 6};
-        wanted.view.camera.target = {-2 * side, side, 0};
+        wanted.view.camera.target = {-0.5 * side, 0.3 * side, 0};
         draw(wanted);
         const Surfaces surfaces = painter_.surfaces();
         for (std::size_t i = 0; i < surfaces.depth.size(); ++i)
