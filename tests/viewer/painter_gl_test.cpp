@@ -185,6 +185,33 @@ TEST_F(PainterTest, WithoutTexturesAllIsWhite) {
     EXPECT_THAT(colourAt(imageOf(*draw(wanted).panes[0].picture), 80, 80), testing::Each(255));
 }
 
+// A checked floor, seen flat: blurred in a draft, and then as it would have been without one.
+TEST_F(PainterTest, ADraftIsSharpenedByTheNextPicture) {
+    Scene scene = room();
+    Texture texture;
+    texture.image = {64, 64, 4, {}};
+    for (int i = 0; i < 64 * 64; ++i)
+        texture.image.pixels.insert(texture.image.pixels.end(), 4, (i + i / 64) % 2 ? 255 : 60);
+    texture.srgb = true;
+    scene.textures.push_back(texture);
+    scene.materials.front().baseColourTexture.texture = 0;
+    for (Vertex& vertex : scene.vertices)
+        vertex.uv = {vertex.position.x * 0.2f, vertex.position.z * 0.2f};
+    painter_.open(1, scene);
+    Wanted wanted = wantedOf(1, {settingsOf("none")});
+    wanted.view.camera.position = {0, 0.2, 5};
+    const Drawn sharp = draw(wanted);
+    wanted.view.camera.position[0] = 0.1;
+    draw(wanted);
+    wanted.view.camera.position[0] = 0;
+    const Drawn draft = painter_.draw(wanted, {}, true);
+    EXPECT_TRUE(draft.draft);
+    EXPECT_NE(imageOf(*draft.panes[0].picture).pixels, imageOf(*sharp.panes[0].picture).pixels);
+    const Drawn again = draw(wanted);
+    EXPECT_FALSE(again.draft);
+    EXPECT_EQ(imageOf(*again.panes[0].picture).pixels, imageOf(*sharp.panes[0].picture).pixels);
+}
+
 TEST_F(PainterTest, ErrorsAndDifferencesHaveTheColoursOfTheirScale) {
     openRoom();
     Wanted wanted = wantedOf(1, {settingsOf("none"), settingsOf("gtao", {{"intensity", 0}})});
