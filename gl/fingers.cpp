@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 
 namespace obscura::gl {
@@ -33,7 +34,13 @@ unsigned long symbolOf(Key key) {
         return XK_Down;
     case Key::up:
         return XK_Up;
+    case Key::leftShift:
+        return XK_Shift_L;
+    case Key::leftControl:
+        return XK_Control_L;
     default:
+        if (key >= Key::f1 && key <= Key::f12)
+            return XK_F1 + static_cast<unsigned long>(key) - static_cast<unsigned long>(Key::f1);
         if (key >= Key::keypadZero && key <= Key::keypadNine)
             return XK_KP_0 + static_cast<unsigned long>(key) -
                    static_cast<unsigned long>(Key::keypadZero);
@@ -58,6 +65,41 @@ Fingers::Fingers() : display_(XOpenDisplay(nullptr)) {
 void Fingers::tap(Key key) { tapSymbol(symbolOf(key)); }
 
 void Fingers::type(char symbol) { tapSymbol(static_cast<unsigned char>(symbol)); }
+
+void Fingers::press(Key key) { holdSymbol(symbolOf(key), true); }
+void Fingers::release(Key key) { holdSymbol(symbolOf(key), false); }
+
+void Fingers::holdSymbol(unsigned long symbol, bool down) {
+    XTestFakeKeyEvent(display_.get(), XKeysymToKeycode(display_.get(), symbol), down, CurrentTime);
+    XSync(display_.get(), False);
+}
+
+void Fingers::moveTo(int x, int y) {
+    XTestFakeMotionEvent(display_.get(), -1, x, y, CurrentTime);
+    XSync(display_.get(), False);
+}
+
+void Fingers::pressButton(int button) { holdButton(button, true); }
+void Fingers::releaseButton(int button) { holdButton(button, false); }
+
+void Fingers::holdButton(int button, bool down) {
+    XTestFakeButtonEvent(display_.get(), static_cast<unsigned>(button), down, CurrentTime);
+    XSync(display_.get(), False);
+}
+
+void Fingers::click(int x, int y, int button) {
+    moveTo(x, y);
+    pressButton(button);
+    releaseButton(button);
+}
+
+// A wheel is two buttons to X.
+void Fingers::turnWheel(int notches) {
+    for (int i = 0; i < std::abs(notches); ++i) {
+        pressButton(notches > 0 ? 4 : 5);
+        releaseButton(notches > 0 ? 4 : 5);
+    }
+}
 
 // The server stamps in milliseconds, and GLFW takes a second press of the same stamp for an echo.
 void Fingers::tapSymbol(unsigned long symbol) {

@@ -13,6 +13,8 @@ enum class Key : int {
     nine = 57,
     a = 65, // and so on to z
     z = 90,
+    leftBracket = 91,
+    rightBracket = 93,
     escape = 256,
     enter = 257,
     tab = 258,
@@ -21,11 +23,15 @@ enum class Key : int {
     left = 263,
     down = 264,
     up = 265,
+    f1 = 290, // and so on to f12
+    f12 = 301,
     keypadZero = 320,
     keypadOne = 321,
     keypadTwo = 322,
     keypadNine = 329,
     keypadEnter = 335,
+    leftShift = 340,
+    leftControl = 341,
     // Buttons of a gamepad; GLFW has no numbers for them among keys. Its directional pad arrives as
     // the arrows, "back" as Escape and "start" as Enter.
     padA = 1000,

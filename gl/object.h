@@ -25,6 +25,8 @@ class Object {
     }
 
     GLuint name() const { return name_; }
+    // Owns it no longer: it lives until the last context that shares it is gone.
+    void release() { name_ = 0; }
     explicit operator bool() const { return name_ != 0; }
 
   private:

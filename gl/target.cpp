@@ -117,6 +117,10 @@ GLint modeOf(Minified minified) {
 
 } // namespace
 
+bool isAnisotropic(bool srgb, Sampling sampling) {
+    return srgb && sampling.minified == Minified::linearMipmapLinear;
+}
+
 Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba,
                      Sampling sampling) {
     Texture texture(GL_TEXTURE_2D);
@@ -133,12 +137,8 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
     setParameter(texture, GL_TEXTURE_WRAP_T, modeOf(sampling.v));
     // Colour only: software drivers take five times as long for it, and blurred relief at grazing
     // angles is not seen.
-    if (srgb && sampling.minified == Minified::linearMipmapLinear &&
-        epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-        GLfloat most = 1;
-        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-        glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
-    }
+    if (isAnisotropic(srgb, sampling))
+        filterAnisotropically(texture, true);
     return texture;
 }
 
@@ -171,8 +171,22 @@ Texture constantTexture(std::array<float, 4> value) {
     return texture;
 }
 
+void filterAnisotropically(const Texture& texture, bool anisotropically) {
+    if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        return;
+    GLfloat most = 1;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+    glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT,
+                        anisotropically ? std::min(most, 8.0f) : 1.0f);
+}
+
 void bindTexture(int unit, const Texture& texture) {
     glBindTextureUnit(static_cast<GLuint>(unit), texture.name());
+}
+
+void filterLinearly(const Texture& texture, bool linearly) {
+    setParameter(texture, GL_TEXTURE_MIN_FILTER, linearly ? GL_LINEAR : GL_NEAREST);
+    setParameter(texture, GL_TEXTURE_MAG_FILTER, linearly ? GL_LINEAR : GL_NEAREST);
 }
 
 std::vector<std::byte> readBytes(const Texture& texture, int width, int height, Format format) {
@@ -194,6 +208,13 @@ std::vector<float> readFloats(const Texture& texture, int width, int height, For
     glGetTextureImage(texture.name(), 0, layout.external, GL_FLOAT,
                       static_cast<GLsizei>(values.size() * sizeof(float)), values.data());
     return values;
+}
+
+std::array<float, 4> readTexel(const Texture& texture, int x, int y) {
+    std::array<float, 4> value{};
+    glGetTextureSubImage(texture.name(), 0, x, y, 0, 1, 1, 1, GL_RGBA, GL_FLOAT, sizeof value,
+                         value.data());
+    return value;
 }
 
 void writeFloats(const Texture& texture, int width, int height, std::span<const float> values) {
@@ -243,6 +264,12 @@ void Target::clear(int colour, std::array<float, 4> value) const {
 
 void Target::clearDepth(float value) const {
     glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &value);
+}
+
+void TextureTarget::bind(const Texture& texture, int width, int height) const {
+    glNamedFramebufferTexture(framebuffer_.name(), GL_COLOR_ATTACHMENT0, texture.name(), 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
+    glViewport(0, 0, width, height);
 }
 
 SlicedTarget::SlicedTarget(int width, int height, Format format, Slices slices,

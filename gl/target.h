@@ -58,10 +58,21 @@ Texture constantTexture(std::array<float, 4> value);
 
 void bindTexture(int unit, const Texture& texture);
 
+// Which images' textures are filtered anisotropically when they are made; and how to have it
+// otherwise for some time.
+bool isAnisotropic(bool srgb, Sampling sampling);
+void filterAnisotropically(const Texture& texture, bool anisotropically);
+
+// How a target's texture looks where it is shown at another size: pixels as squares, or blended.
+void filterLinearly(const Texture& texture, bool linearly);
+
 // The texture's content as it lies in memory, rows from bottom to top; for hashing.
 std::vector<std::byte> readBytes(const Texture& texture, int width, int height, Format format);
 // The same content as floats, with as many channels as the format has.
 std::vector<float> readFloats(const Texture& texture, int width, int height, Format format);
+// One texel of level 0 (of an array, of its first layer) by its coordinates from the left and from
+// the bottom; channels that the format has not are 0, and alpha then 1.
+std::array<float, 4> readTexel(const Texture& texture, int x, int y);
 // Replaces the content of a texture of one channel, rows from the bottom.
 void writeFloats(const Texture& texture, int width, int height, std::span<const float> values);
 
@@ -92,6 +103,16 @@ class Target {
     std::vector<Format> formats_;
     std::vector<Texture> colours_;
     Texture depth_;
+    Framebuffer framebuffer_;
+};
+
+// Draws into a texture that belongs to somebody else, which may be another one each time.
+class TextureTarget {
+  public:
+    TextureTarget() : framebuffer_(GL_NONE) {}
+    void bind(const Texture& texture, int width, int height) const; // of a format for colours
+
+  private:
     Framebuffer framebuffer_;
 };
 

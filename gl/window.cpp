@@ -31,6 +31,12 @@ static_assert(static_cast<int>(Key::up) == GLFW_KEY_UP);
 static_assert(static_cast<int>(Key::keypadZero) == GLFW_KEY_KP_0);
 static_assert(static_cast<int>(Key::keypadNine) == GLFW_KEY_KP_9);
 static_assert(static_cast<int>(Key::keypadEnter) == GLFW_KEY_KP_ENTER);
+static_assert(static_cast<int>(Key::leftBracket) == GLFW_KEY_LEFT_BRACKET);
+static_assert(static_cast<int>(Key::rightBracket) == GLFW_KEY_RIGHT_BRACKET);
+static_assert(static_cast<int>(Key::f1) == GLFW_KEY_F1);
+static_assert(static_cast<int>(Key::f12) == GLFW_KEY_F12);
+static_assert(static_cast<int>(Key::leftShift) == GLFW_KEY_LEFT_SHIFT);
+static_assert(static_cast<int>(Key::leftControl) == GLFW_KEY_LEFT_CONTROL);
 
 namespace {
 

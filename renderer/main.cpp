@@ -1,16 +1,21 @@
 #include "base/arguments.h"
 #include "base/progress.h"
+#include "protocols/reader/study_text.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/compare.h"
+#include "renderer/framing.h"
+#include "renderer/levels.h"
 #include "renderer/reference/reference_cache.h"
 #include "renderer/render.h"
 #include "renderer/techniques/document.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <optional>
 
 namespace {
 
@@ -18,12 +23,13 @@ using namespace obscura;
 namespace fs = std::filesystem;
 
 struct Options {
-    bool devices = false, list = false, document = false, layers = false;
+    bool devices = false, list = false, document = false, layers = false, frame = false;
     std::string device, scene = "atrium", techniqueId = "none", level = "moderate", scenes;
     std::string recipe, describe, preset, normals = "smooth";
     std::vector<std::string> settings;
     std::vector<double> camera;
-    double fovDegrees = 50, near = 0, radius = 0.5, exposure = 0;
+    std::optional<double> near, radius;
+    double fovDegrees = 50, exposure = 0;
     int width = 1280, height = 720, antialiasing = 4;
     int seed = 1;
     fs::path out = "render.png";
@@ -86,26 +92,27 @@ Recipe recipeOfProtocol(const Options& options, SceneHashes& scenes, const gl::D
                             options.condition, suggestion(options.condition, ids)));
 }
 
-Level levelOf(const std::string& name) {
-    Level level;
-    level.name = name;
-    if (name == "low") {
-        level.ambient = Vec3{1, 1, 1};
-        level.curve = Curve::clamp;
-        return level;
-    }
-    level.sky = Sky{};
-    if (name == "high")
-        level.sun = Sun{62, 66, {4, 3.8, 3.4}};
-    return level;
+// Camera and radius that suit the view's scene, unless the options say otherwise; and what to type
+// for the same again.
+void frame(View& view, const Options& options, const Folders& folders) {
+    const Scene scene = loadSceneOf(view, folders);
+    const Framing found = framing(scene, RayTracer(scene), static_cast<std::uint64_t>(options.seed),
+                                  static_cast<double>(options.width) / options.height);
+    view.camera = found.camera;
+    view.camera.near = options.near.value_or(found.near);
+    view.radius = options.radius.value_or(found.radius);
+    const Camera& camera = view.camera;
+    fmt::print("{}\ncamera = {}\nradius = {}\n--camera {} {} --fov {} --near {} --radius {}{}\n",
+               found.why, toToml(camera), view.radius, fmt::join(camera.position, " "),
+               fmt::join(camera.target, " "), camera.fovDegrees, camera.near, view.radius,
+               camera.up == Camera().up ? "" : "  (these options have no \"up\")");
 }
 
 // One view put together on the command line.
 Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Driver& driver) {
-    if (options.camera.size() != 6)
-        throw Error(
-            "expected --camera with six numbers, position and target: --camera 0 2 8 0 1 0");
-    const auto& c = options.camera;
+    if (options.camera.size() != 6 && !options.frame)
+        throw Error("expected --camera with six numbers, position and target (--camera 0 2 8 0 1 "
+                    "0), or --frame, which finds a view that shows the scene");
     Protocol protocol;
     protocol.seed = static_cast<std::uint64_t>(options.seed);
     protocol.width = options.width;
@@ -120,14 +127,19 @@ Recipe recipeOfOptions(const Options& options, SceneHashes& scenes, const gl::Dr
     const bool builtin =
         std::find(builtins.begin(), builtins.end(), options.scene) != builtins.end();
     (builtin ? view.builtin : view.file) = options.scene;
-    view.camera.position = {c[0], c[1], c[2]};
-    view.camera.target = {c[3], c[4], c[5]};
-    view.camera.fovDegrees = options.fovDegrees;
-    view.camera.near = options.near;
-    view.radius = options.radius;
+    if (options.frame)
+        frame(view, options, scenes.folders());
+    else {
+        const auto& c = options.camera;
+        view.camera.position = {c[0], c[1], c[2]};
+        view.camera.target = {c[3], c[4], c[5]};
+        view.camera.fovDegrees = options.fovDegrees;
+        view.camera.near = options.near.value_or(0);
+        view.radius = options.radius.value_or(0.5);
+    }
     view.exposure = options.exposure;
     protocol.views.push_back(view);
-    protocol.levels.push_back(levelOf(options.level));
+    protocol.levels.push_back(levelNamed(options.level));
     TechniqueSetting setting{"technique", options.techniqueId, {}, {}};
     if (!options.preset.empty())
         setting.preset = {options.preset, {}};
@@ -234,28 +246,32 @@ int run(int argc, char** argv) {
     app.add_option("--scene", options.scene, "built-in scene or glTF file in the scenes folder")
         ->capture_default_str();
     app.add_option("--scenes", options.scenes, "scenes folder; default OBSCURA_SCENES");
-    app.add_option("--camera", options.camera, "position x y z, target x y z")
-        ->expected(6)
-        ->check(numberFrom(-1e9, 1e9));
-    app.add_option("--fov", options.fovDegrees, "vertical, degrees")
-        ->check(numberFrom(1, 170))
-        ->capture_default_str();
+    CLI::Option* camera = app.add_option("--camera", options.camera, "position x y z, target x y z")
+                              ->expected(6)
+                              ->check(numberFrom(-1e9, 1e9));
+    CLI::Option* fov = app.add_option("--fov", options.fovDegrees, "vertical, degrees")
+                           ->check(numberFrom(1, 170))
+                           ->capture_default_str();
+    app.add_flag("--frame", options.frame,
+                 "instead of --camera: find a view that shows the scene, with near plane and "
+                 "radius, and print it")
+        ->excludes(camera)
+        ->excludes(fov);
     app.add_option("--near", options.near,
-                   "where the camera begins to see, metres; default 0.05, or a twentieth of the "
-                   "diagonal of a smaller scene")
+                   "where the camera begins to see, metres; default: that of --frame, else 0.05, "
+                   "or a twentieth of the diagonal of a smaller scene")
         ->check(numberFrom(1e-7, 1e3));
     app.add_option("--exposure", options.exposure, "stops")
         ->check(numberFrom(-32, 32))
         ->capture_default_str();
     app.add_option("--level", options.level, "low, moderate or high")
-        ->check(CLI::IsMember({"low", "moderate", "high"}))
+        ->check(CLI::IsMember(levelNames()))
         ->capture_default_str();
     app.add_option("--technique", options.techniqueId, "id of --list")->capture_default_str();
     app.add_option("--preset", options.preset, "a preset of --describe; --set overrides it");
     app.add_option("--set", options.settings, "NAME=NUMBER, a setting of --describe");
-    app.add_option("--radius", options.radius, "metres")
-        ->check(numberFrom(1e-4, 1e4))
-        ->capture_default_str();
+    app.add_option("--radius", options.radius, "metres; default: that of --frame, else 0.5")
+        ->check(numberFrom(lowestRadius, highestRadius));
     app.add_option("--width", options.width)->check(CLI::Range(1, 16384))->capture_default_str();
     app.add_option("--height", options.height)->check(CLI::Range(1, 16384))->capture_default_str();
     app.add_option("--antialiasing", options.antialiasing, "jittered frames averaged")
@@ -265,7 +281,8 @@ int run(int argc, char** argv) {
         ->check(CLI::IsMember(normalsNames()))
         ->capture_default_str();
     app.add_option("--seed", options.seed)->capture_default_str();
-    app.add_option("--protocol", options.protocol, "take everything from a protocol's condition");
+    app.add_option("--protocol", options.protocol, "take everything from a protocol's condition")
+        ->excludes("--frame");
     app.add_option("--condition", options.condition, "its id")->needs("--protocol");
     app.add_option("--member", options.member, "0 for a, 1 for b")->check(CLI::Range(0, 1));
     app.add_option("--out", options.out, "PNG; its visibility goes beside it")

@@ -247,3 +247,12 @@ fault worse-for-better protocols/reader/stimuli.cpp \
 fault unsure-votes analysis/plan/simulation.cpp \
     's|limitOf\(here\.b \+ here\.unsure\)|limitOf(here.b)|' \
     analysis_test 'Plan.WhoIsNotSureHasNoVote'
+fault cut-object renderer/framing.cpp \
+    's|margin = 0\.88|margin = 1.2|' \
+    renderer_test 'Framing.*'
+fault crumbs-count renderer/extent.cpp \
+    's|each\.nearest > reach \+ gap|each.nearest > reach + 1e9f * gap|' \
+    renderer_test 'Framing.*'
+fault looks-through renderer/reference/ray_scene.cpp \
+    's|cutout\.oneSided = oneSided|cutout.oneSided = false|' \
+    renderer_test 'Sight.*'

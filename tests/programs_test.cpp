@@ -51,7 +51,8 @@ TEST(Programs, ExplainThemselves) {
           "obscura-experiment", "obscura-experiment ledger", "obscura-analysis", "obscura-bench",
           "obscura-bench rays", "obscura-bench normals", "obscura-bench passes",
           "obscura-bench sweep", "obscura-bench merge", "obscura-bench page",
-          "obscura-bench ablation", "obscura-bench choose", "obscura-bench stability"}) {
+          "obscura-bench ablation", "obscura-bench choose", "obscura-bench stability",
+          "obscura-view"}) {
         const Outcome outcome = run(std::string(program) + " --help");
         EXPECT_EQ(outcome.status, 0) << program;
         EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << program;
@@ -73,6 +74,34 @@ TEST(Programs, TakeRightArguments) {
         const Outcome outcome = run(replaced(arguments, "@", folder.path().string()));
         EXPECT_EQ(outcome.status, 0) << arguments << "\n" << outcome.said;
     }
+}
+
+// What --frame prints gives the same picture again when it is typed.
+TEST(Programs, FrameAScene) {
+    const test::Folder folder;
+    const auto at = [&](const std::string& text) {
+        return replaced(text, "@", folder.path().string());
+    };
+    // The three corners (0, 0, 0), (1, 0, 0) and (0, 1, 0).
+    writeFile(folder / "triangle.gltf", R"({"asset": {"version": "2.0"}, "scene": 0,
+"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+"meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+               "min": [0, 0, 0], "max": [1, 1, 0]}],
+"bufferViews": [{"buffer": 0, "byteLength": 36}],
+"buffers": [{"byteLength": 36,
+             "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    const std::string scene =
+        "obscura-render --scene triangle.gltf --scenes @ --width 64 --height 36 --antialiasing 1";
+    const Outcome framed = run(at(scene + " --frame --out @/a.png"));
+    ASSERT_EQ(framed.status, 0) << framed.said;
+    EXPECT_THAT(framed.said, HasSubstr("\ncamera = { position = ["));
+    const std::size_t options = framed.said.find("--camera ");
+    ASSERT_NE(options, std::string::npos) << framed.said;
+    const std::string typed =
+        framed.said.substr(options, framed.said.find('\n', options) - options);
+    ASSERT_EQ(run(at(scene + " --out @/b.png " + typed)).status, 0) << typed;
+    EXPECT_EQ(readFile(folder / "a.png"), readFile(folder / "b.png"));
 }
 
 // Every metric and every map, of a picture and its negative in one channel.
@@ -150,6 +179,8 @@ TEST(Programs, RefuseWrongOnes) {
         {"obscura-render --near 0" + small, "expected a number from 1e-07"},
         {"obscura-render --exposure inf" + small, "expected a number from -32 to 32"},
         {"obscura-render --camera nan 0 0 1 0 0", "expected a number from"},
+        {"obscura-render --scene sculpture", "or --frame, which finds a view"},
+        {"obscura-render --frame" + camera, "--frame excludes --camera"},
         {"obscura-render --camera 0 0 0 0 0 0 --width 32 --height 18 --out @/o.png",
          "a target apart from the position"},
         {"obscura-render --camera 0 5 0 0 0 0 --width 32 --height 18 --out @/o.png",

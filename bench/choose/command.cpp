@@ -2,13 +2,13 @@
 #include "base/random.h"
 #include "bench/choose/choose.h"
 #include "bench/choose/people.h"
-#include "bench/choose/radius.h"
 #include "bench/choose/report.h"
 #include "bench/commands.h"
-#include "bench/measure/viewpoints.h"
 #include "bench/stability/stability.h"
 #include "bench/study_options.h"
 #include "bench/sweep/files.h"
+#include "renderer/found_cameras.h"
+#include "renderer/reference/sight.h"
 
 #include <fmt/format.h>
 
@@ -62,15 +62,25 @@ void divide(std::vector<View> views, MatchStudy& study) {
 // Seen from cameras found in the scene instead of the study's own, half of them to fit on.
 SweepStudy seenFromFound(SweepStudy study, const ChooseOptions& options, const Folders& folders) {
     View view = viewOfScene(options.scene);
+    const Scene scene = loadSceneOf(view, folders);
+    const Sight sight(scene);
+    const RayTracer tracer(scene);
     view.radius = options.radius;
     if (options.radius <= 0) {
         const SuggestedRadius suggested =
-            suggestedRadius(view, folders, options.cameras, study.match.seed);
+            suggestedRadius(sight, tracer, options.cameras, study.match.seed);
         fmt::print("Radius {:g} m, for --radius gives none: {}.\n", suggested.metres,
                    suggested.why);
         view.radius = suggested.metres;
     }
-    divide(viewpoints(view, folders, options.cameras, study.match.seed), study.match);
+    std::vector<View> views;
+    for (const Camera& camera :
+         foundCameras(sight, tracer, view.radius, options.cameras, study.match.seed)) {
+        view.camera = camera;
+        view.name = fmt::format("camera-{}", views.size() + 1);
+        views.push_back(view);
+    }
+    divide(std::move(views), study.match);
     study.match.name = "choose";
     study.growth.reset();
     return study;

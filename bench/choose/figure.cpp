@@ -1,8 +1,8 @@
 #include "bench/choose/figure.h"
 
-#include "bench/choose/radius.h"
 #include "bench/choose/words.h"
 #include "bench/sweep/pareto.h"
+#include "renderer/found_cameras.h"
 #include "report/gnuplot.h"
 #include "report/lettering.h"
 #include "report/scatter.h"

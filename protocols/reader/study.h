@@ -20,11 +20,16 @@ struct Camera {
     Vec3 up{0, 1, 0};       //
     double fovDegrees = 50; // vertical, 1 ... 120
     double near = 0;        // metres; 0: as the scene's size wants it (nearPlane)
+
+    bool operator==(const Camera&) const = default;
 };
 
 // What is wrong with it: "" for a camera that sees something. It must be finite, look somewhere
 // other than straight along `up`, and its angle be below 180 degrees.
 std::string faultOf(const Camera& camera);
+
+// Metres: what radii a study may have.
+constexpr double lowestRadius = 1e-4, highestRadius = 1e4;
 
 // A floor at the lowest point of a scene and a wall behind it, so that what came alone has
 // something to stand on and to shade. Both are matte and reach well beyond the scene.
@@ -41,7 +46,8 @@ struct View {
     std::string file;    // glTF file, relative to the scenes folder; or empty, and then
     std::string builtin; // "sculpture", "atrium" or "figures"
     Camera camera;
-    double radius = 0;   // metres: how far occlusion reaches, the same for every technique here
+    double radius = 0;   // metres, lowestRadius ... highestRadius: how far occlusion reaches, the
+                         // same for every technique here
     double exposure = 0; // stops: light is scaled by 2^exposure before the display curve
     std::optional<Ground> ground;
     Place place;

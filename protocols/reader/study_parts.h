@@ -10,8 +10,6 @@ namespace obscura {
 // What files of several kinds have in common: a study of people (protocol.h) and a study of
 // techniques (match.h) declare scenes and techniques alike.
 
-constexpr double lowestRadius = 1e-4, highestRadius = 1e4; // metres
-
 // [scenes.NAME]; without `withRadius` the key `radius` is unknown there.
 View parseView(const std::string& name, TomlTable table, bool withRadius = true);
 

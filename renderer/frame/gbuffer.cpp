@@ -115,16 +115,27 @@ GpuScene::GpuScene(const Scene& scene)
       lights_(scene.lights),
       geometry_(bytesOf(scene.vertices), std::array{3, 3, 4, 2, 2, 4}, scene.indices),
       white_(gl::constantTexture({1, 1, 1, 1})) {
-    for (const Texture& texture : scene.textures)
-        textures_.push_back(gl::imageTexture(
-            texture.image.width, texture.image.height, texture.srgb, texture.image.pixels,
-            {static_cast<gl::Wrap>(texture.wrapU), static_cast<gl::Wrap>(texture.wrapV),
-             texture.nearest, static_cast<gl::Minified>(texture.minified)}));
+    for (const Texture& texture : scene.textures) {
+        const gl::Sampling sampling{static_cast<gl::Wrap>(texture.wrapU),
+                                    static_cast<gl::Wrap>(texture.wrapV), texture.nearest,
+                                    static_cast<gl::Minified>(texture.minified)};
+        if (gl::isAnisotropic(texture.srgb, sampling))
+            anisotropic_.push_back(textures_.size());
+        textures_.push_back(gl::imageTexture(texture.image.width, texture.image.height,
+                                             texture.srgb, texture.image.pixels, sampling));
+    }
     for (const Mesh& mesh : meshes_) {
+        pieces_.push_back(piecesOf(scene, mesh));
         features_.push_back(featuresOf(scene, mesh));
         kinds_.insert(features_.back());
         emits_ = emits_ || materials_[static_cast<std::size_t>(mesh.material)].emits();
     }
+}
+
+void GpuScene::sharpen(bool sharp) const {
+    if (std::exchange(sharp_, sharp) != sharp)
+        for (const std::size_t each : anisotropic_)
+            gl::filterAnisotropically(textures_[each], sharp);
 }
 
 const gl::Texture& GpuScene::texture(const TextureUse& use) const {
@@ -168,32 +179,89 @@ void GpuScene::bindMaterial(const gl::Program& program, const Material& material
         set(program, "emission", {material.emission, material.unlit ? 1 : 0});
 }
 
-void GpuScene::drawMesh(std::size_t index, bool cullBackFaces, gl::State& state) const {
-    const Mesh& mesh = meshes_[index];
-    state.cullBack =
-        cullBackFaces && !materials_[static_cast<std::size_t>(mesh.material)].doubleSided;
-    state.apply();
-    geometry_.draw(mesh.firstIndex, mesh.indexCount);
+// Software rasterisers take as long for a vertex that is not seen as for one that is.
+std::vector<GpuScene::Piece> GpuScene::piecesOf(const Scene& scene, const Mesh& mesh) {
+    constexpr std::uint32_t most = 3 * 256; // indices
+    std::vector<Piece> pieces;
+    for (std::uint32_t first = 0; first < mesh.indexCount; first += most) {
+        const std::uint32_t count = std::min(most, mesh.indexCount - first);
+        Piece piece{mesh.firstIndex + first, count, {}};
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const glm::vec3 place = scene.vertices[scene.indices[piece.firstIndex + i]].position;
+            piece.bounds.low = i == 0 ? place : glm::min(piece.bounds.low, place);
+            piece.bounds.high = i == 0 ? place : glm::max(piece.bounds.high, place);
+        }
+        pieces.push_back(piece);
+    }
+    return pieces;
 }
 
-void GpuScene::draw(const gl::Program& program, const MaterialFeatures& features, Reads reads,
-                    bool cullBackFaces, gl::State state) const {
+namespace {
+
+// Whether a box lies beyond one of the picture's borders, or before the near plane (or the sun's
+// far one) as a whole; with room for rounding.
+bool isOutside(const Bounds& box, const glm::mat4& clipFromWorld) {
+    const glm::mat4 rows = glm::transpose(clipFromWorld);
+    const glm::vec4 borders[] = {rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1],
+                                 rows[3] - rows[1], rows[3] - rows[2]};
+    return std::any_of(std::begin(borders), std::end(borders), [&](const glm::vec4& border) {
+        float most = border.w, size = std::abs(border.w);
+        for (int axis = 0; axis < 3; ++axis) {
+            const float low = border[axis] * box.low[axis], high = border[axis] * box.high[axis];
+            most += std::max(low, high);
+            size += std::max(std::abs(low), std::abs(high));
+        }
+        return most < -1e-5f * size;
+    });
+}
+
+} // namespace
+
+std::vector<Mesh> GpuScene::seen(std::size_t index, const glm::mat4& clipFromWorld) const {
+    std::vector<Mesh> runs;
+    for (const Piece& piece : pieces_[index]) {
+        if (isOutside(piece.bounds, clipFromWorld))
+            continue;
+        if (runs.empty() || runs.back().firstIndex + runs.back().indexCount != piece.firstIndex)
+            runs.push_back({piece.firstIndex, 0, meshes_[index].material});
+        runs.back().indexCount += piece.indexCount;
+    }
+    return runs;
+}
+
+void GpuScene::drawMesh(std::size_t index, std::span<const Mesh> seen, bool cullBackFaces,
+                        gl::State& state) const {
+    const int material = meshes_[index].material;
+    state.cullBack = cullBackFaces && !materials_[static_cast<std::size_t>(material)].doubleSided;
+    state.apply();
+    for (const Mesh& run : seen)
+        geometry_.draw(run.firstIndex, run.indexCount);
+}
+
+void GpuScene::draw(const gl::Program& program, const glm::mat4& clipFromWorld,
+                    const MaterialFeatures& features, Reads reads, bool cullBackFaces,
+                    gl::State state) const {
     program.use();
     geometry_.bind();
-    for (std::size_t i = 0; i < meshes_.size(); ++i)
-        if (features_[i] == features) {
-            bindMaterial(program, materials_[static_cast<std::size_t>(meshes_[i].material)],
-                         features, reads);
-            drawMesh(i, cullBackFaces, state);
-        }
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+        if (features_[i] != features)
+            continue;
+        const std::vector<Mesh> runs = seen(i, clipFromWorld);
+        if (runs.empty())
+            continue;
+        bindMaterial(program, materials_[static_cast<std::size_t>(meshes_[i].material)], features,
+                     reads);
+        drawMesh(i, runs, cullBackFaces, state);
+    }
 }
 
-void GpuScene::drawOpaque(const gl::Program& program, bool cullBackFaces, gl::State state) const {
+void GpuScene::drawOpaque(const gl::Program& program, const glm::mat4& clipFromWorld,
+                          bool cullBackFaces, gl::State state) const {
     program.use();
     geometry_.bind();
     for (std::size_t i = 0; i < meshes_.size(); ++i)
         if (!features_[i].masked)
-            drawMesh(i, cullBackFaces, state);
+            drawMesh(i, seen(i, clipFromWorld), cullBackFaces, state);
 }
 
 namespace {
@@ -252,11 +320,11 @@ void DepthPass::draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool
                           std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
         return program;
     };
-    scene.drawOpaque(see(opaque_), cullBackFaces, state);
+    scene.drawOpaque(see(opaque_), clipFromWorld, cullBackFaces, state);
     for (const MaterialFeatures& features : scene.features())
         if (features.masked)
-            scene.draw(see(masked(features)), features, GpuScene::Reads::forDepth, cullBackFaces,
-                       state);
+            scene.draw(see(masked(features)), clipFromWorld, features, GpuScene::Reads::forDepth,
+                       cullBackFaces, state);
 }
 
 namespace {
@@ -340,7 +408,7 @@ void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer&
         drawn.set("faceNormals", gbuffer.content().occlusionNormal == Normals::face ? 1 : 0);
         drawn.setMatrix("clipFromWorld",
                         std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
-        scene.draw(drawn, features,
+        scene.draw(drawn, clipFromWorld, features,
                    emission ? GpuScene::Reads::withEmission : GpuScene::Reads::withoutEmission,
                    true, state);
     }

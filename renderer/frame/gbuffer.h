@@ -45,34 +45,53 @@ class GpuScene {
     const Bounds& bounds() const { return bounds_; }
     // Those of its meshes, each once.
     const std::set<MaterialFeatures>& features() const { return kinds_; }
+    // Whether textures are filtered anisotropically from now on, as at first. Without, they are
+    // blurred where they are seen at grazing angles, and software rasterisers take half the time.
+    void sharpen(bool sharp) const;
     // Whether anything shows light of its own, so that a G-buffer should hold emission.
     bool emits() const { return emits_; }
     const std::vector<PointLight>& lights() const { return lights_; }
 
     // The meshes that have these features, by a program of shaders/material.glsl: `forDepth` reads
     // nothing but alpha, `withEmission` the emission too. Back faces that cannot be seen, those of
-    // materials that are not double-sided, may be left out.
+    // materials that are not double-sided, may be left out. What lies outside of the picture that
+    // `clipFromWorld` gives is left out.
     enum class Reads { forDepth, withoutEmission, withEmission };
-    void draw(const gl::Program& program, const MaterialFeatures& features, Reads reads,
-              bool cullBackFaces, gl::State state) const;
+    void draw(const gl::Program& program, const glm::mat4& clipFromWorld,
+              const MaterialFeatures& features, Reads reads, bool cullBackFaces,
+              gl::State state) const;
     // All that have no holes, by a program that reads nothing of their materials.
-    void drawOpaque(const gl::Program& program, bool cullBackFaces, gl::State state) const;
+    void drawOpaque(const gl::Program& program, const glm::mat4& clipFromWorld, bool cullBackFaces,
+                    gl::State state) const;
 
   private:
     const gl::Texture& texture(const TextureUse& use) const;
     void bindMaterial(const gl::Program& program, const Material& material,
                       const MaterialFeatures& features, Reads reads) const;
-    void drawMesh(std::size_t index, bool cullBackFaces, gl::State& state) const;
+    void drawMesh(std::size_t index, std::span<const Mesh> seen, bool cullBackFaces,
+                  gl::State& state) const;
+
+    // Some hundred triangles of a mesh, that follow each other, and a box around them.
+    struct Piece {
+        std::uint32_t firstIndex, indexCount;
+        Bounds bounds;
+    };
+    static std::vector<Piece> piecesOf(const Scene& scene, const Mesh& mesh);
+    // The runs of a mesh's triangles that may be in the picture.
+    std::vector<Mesh> seen(std::size_t index, const glm::mat4& clipFromWorld) const;
 
     Bounds bounds_;
     std::vector<Mesh> meshes_;
-    std::vector<MaterialFeatures> features_; // of each mesh
+    std::vector<std::vector<Piece>> pieces_; // of each mesh
+    std::vector<MaterialFeatures> features_; // the same
     std::set<MaterialFeatures> kinds_;
     bool emits_ = false;
     std::vector<Material> materials_;
     std::vector<PointLight> lights_;
     gl::Geometry geometry_;
     std::vector<gl::Texture> textures_;
+    std::vector<std::size_t> anisotropic_; // of them
+    mutable bool sharp_ = true;
     gl::Texture white_;
 };
 

@@ -76,7 +76,7 @@ struct AlphaMap {
     }
 };
 
-// The triangles of a masked material.
+// The triangles of a material that rays may pass: masked, or drawn from one side.
 struct Cutout {
     // What decides on a hole, at one corner: place on the map, and alpha of vertex and material.
     struct Corner {
@@ -84,11 +84,14 @@ struct Cutout {
         float alpha;
     };
     const AlphaMap* map = nullptr; // null: alpha is the corners' alone
-    float cutoff = 0;
+    float cutoff = 0;              // 0: no holes
+    bool oneSided = false;
     std::vector<std::uint32_t> indices;
-    std::vector<Corner> corners; // one for each index
+    std::vector<Corner> corners; // one for each index, where there are holes
 
     bool hole(std::uint32_t triangle, float u, float v) const {
+        if (corners.empty())
+            return false;
         const Corner* corner = &corners[3 * static_cast<std::size_t>(triangle)];
         const Corner &a = corner[0], &b = corner[1], &c = corner[2];
         const float w = 1 - u - v, alpha = w * a.alpha + u * b.alpha + v * c.alpha;
@@ -96,12 +99,24 @@ struct Cutout {
     }
 };
 
-void skipHoles(const RTCFilterFunctionNArguments* arguments) {
+// Embree's normal is that of corners that run against the clock, as OpenGL's front is.
+bool fromBehind(const RTCFilterFunctionNArguments& at, unsigned int i) {
+    return RTCRayN_dir_x(at.ray, at.N, i) * RTCHitN_Ng_x(at.hit, at.N, i) +
+               RTCRayN_dir_y(at.ray, at.N, i) * RTCHitN_Ng_y(at.hit, at.N, i) +
+               RTCRayN_dir_z(at.ray, at.N, i) * RTCHitN_Ng_z(at.hit, at.N, i) >
+           0;
+}
+
+void skipUnseen(const RTCFilterFunctionNArguments* arguments) {
     const auto& cutout = *static_cast<const Cutout*>(arguments->geometryUserPtr);
     for (unsigned int i = 0; i < arguments->N; ++i)
-        if (arguments->valid[i] && cutout.hole(RTCHitN_primID(arguments->hit, arguments->N, i),
-                                               RTCHitN_u(arguments->hit, arguments->N, i),
-                                               RTCHitN_v(arguments->hit, arguments->N, i)))
+        if (arguments->valid[i] &&
+            ((cutout.oneSided &&
+              RTCRayN_id(arguments->ray, arguments->N, i) != RayScene::meetsBacks &&
+              fromBehind(*arguments, i)) ||
+             cutout.hole(RTCHitN_primID(arguments->hit, arguments->N, i),
+                         RTCHitN_u(arguments->hit, arguments->N, i),
+                         RTCHitN_v(arguments->hit, arguments->N, i))))
             arguments->valid[i] = 0;
 }
 
@@ -122,37 +137,49 @@ struct RayScene::State {
     std::vector<std::uint32_t> opaque; // indices
     std::map<int, AlphaMap> maps;      // by texture
     std::map<int, Cutout> cutouts;     // by material
-    EmbreeScene scene;                 // dies before what it points to
+    // Where triangles begin in the scene's indices, by geometry; only of drawn sides.
+    std::vector<std::vector<std::uint32_t>> firsts;
+    EmbreeScene scene; // dies before what it points to
 
-    void sort(const Scene& from);
+    void sort(const Scene& from, Sides sides);
     void attach(const std::vector<std::uint32_t>& indices, Cutout* cutout);
 };
 
-void RayScene::State::sort(const Scene& from) {
+void RayScene::State::sort(const Scene& from, Sides sides) {
     for (const Vertex& vertex : from.vertices)
         positions.push_back(vertex.position);
     positions.emplace_back(0.0f); // Embree reads 16 bytes of each
+    std::map<int, std::vector<std::uint32_t>> places;
     for (const Mesh& mesh : from.meshes) {
         const Material& material = from.materials[static_cast<std::size_t>(mesh.material)];
         const auto first = from.indices.begin() + mesh.firstIndex;
-        if (material.alphaCutoff <= 0) {
+        const bool oneSided = sides == Sides::drawn && !material.doubleSided,
+                   plain = material.alphaCutoff <= 0 && !oneSided;
+        if (sides == Sides::drawn)
+            for (std::uint32_t i = 0; i < mesh.indexCount; i += 3)
+                places[plain ? -1 : mesh.material].push_back(mesh.firstIndex + i);
+        if (plain) {
             opaque.insert(opaque.end(), first, first + mesh.indexCount);
             continue;
         }
         Cutout& cutout = cutouts[mesh.material];
         cutout.cutoff = material.alphaCutoff;
+        cutout.oneSided = oneSided;
+        const bool masked = material.alphaCutoff > 0;
         const TextureUse& use = material.baseColourTexture;
-        if (use.exists()) {
+        if (masked && use.exists()) {
             if (!maps.contains(use.texture))
                 maps[use.texture] = alphaMap(from.textures[static_cast<std::size_t>(use.texture)]);
             cutout.map = &maps[use.texture];
         }
         cutout.indices.insert(cutout.indices.end(), first, first + mesh.indexCount);
-        for (std::uint32_t i = 0; i < mesh.indexCount; ++i) {
+        for (std::uint32_t i = 0; masked && i < mesh.indexCount; ++i) {
             const Vertex& vertex = from.vertices[first[i]];
             cutout.corners.push_back({use.at(vertex), material.baseColour.a * vertex.colour.a});
         }
     }
+    for (auto& [material, each] : places) // as they will be attached
+        firsts.push_back(std::move(each));
 }
 
 void RayScene::State::attach(const std::vector<std::uint32_t>& indices, Cutout* cutout) {
@@ -165,14 +192,14 @@ void RayScene::State::attach(const std::vector<std::uint32_t>& indices, Cutout* 
                                indices.data(), 0, 3 * sizeof(std::uint32_t), indices.size() / 3);
     if (cutout) {
         rtcSetGeometryUserData(geometry.get(), cutout);
-        rtcSetGeometryOccludedFilterFunction(geometry.get(), skipHoles);
-        rtcSetGeometryIntersectFilterFunction(geometry.get(), skipHoles);
+        rtcSetGeometryOccludedFilterFunction(geometry.get(), skipUnseen);
+        rtcSetGeometryIntersectFilterFunction(geometry.get(), skipUnseen);
     }
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
 }
 
-RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
+RayScene::RayScene(const Scene& scene, Sides sides) : state_(std::make_unique<State>()) {
     State& state = *state_;
     state.device.reset(rtcNewDevice(nullptr));
     if (!state.device)
@@ -180,10 +207,11 @@ RayScene::RayScene(const Scene& scene) : state_(std::make_unique<State>()) {
                                 "{}: it needs a processor with SSE2 or NEON, and memory",
                                 static_cast<int>(rtcGetDeviceError(nullptr))));
     rtcSetDeviceErrorFunction(state.device.get(), Complaints::add, &state.complaints);
-    state.sort(scene);
+    state.sort(scene, sides);
     state.scene.reset(rtcNewScene(state.device.get()));
     rtcSetSceneFlags(state.scene.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(state.scene.get(), RTC_BUILD_QUALITY_HIGH);
+    rtcSetSceneBuildQuality(state.scene.get(), sides == Sides::both ? RTC_BUILD_QUALITY_HIGH
+                                                                    : RTC_BUILD_QUALITY_MEDIUM);
     state.attach(state.opaque, nullptr);
     for (auto& [material, cutout] : state.cutouts)
         state.attach(cutout.indices, &cutout);
@@ -195,6 +223,11 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 
 RTCScene RayScene::handle() const { return state_->scene.get(); }
+
+std::uint32_t RayScene::firstIndex(const RTCHit& hit) const {
+    return state_->firsts[hit.geomID][hit.primID];
+}
+
 void RayScene::throwErrors() const { state_->complaints.raise(); }
 
 } // namespace obscura

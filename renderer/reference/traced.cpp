@@ -14,13 +14,16 @@ TraceSettings traceSettings(const Settings& settings, std::uint64_t seed) {
     return result;
 }
 
+Image shaped(Image visibility, const Settings& settings) {
+    const float power = settings["power"], intensity = std::copysign(settings["intensity"], power);
+    for (float& value : visibility.pixels)
+        value = std::min(std::pow(std::max(1 - intensity * (1 - value), 0.0f), power), 1.0f);
+    return visibility;
+}
+
 Image tracedVisibility(const RayTracer& tracer, const Surfaces& surfaces, const Settings& settings,
                        std::uint64_t seed) {
-    Image result = tracer.trace(surfaces, traceSettings(settings, seed)).visibility;
-    const float power = settings["power"], intensity = std::copysign(settings["intensity"], power);
-    for (float& value : result.pixels)
-        value = std::min(std::pow(std::max(1 - intensity * (1 - value), 0.0f), power), 1.0f);
-    return result;
+    return shaped(tracer.trace(surfaces, traceSettings(settings, seed)).visibility, settings);
 }
 
 gl::Texture visibilityTexture(const Image& visibility) {

@@ -15,6 +15,9 @@ TraceSettings traceSettings(const Settings& settings, std::uint64_t seed);
 Image tracedVisibility(const RayTracer& tracer, const Surfaces& surfaces, const Settings& settings,
                        std::uint64_t seed);
 
+// What the last pass of another technique would make of visibility: intensity and power applied.
+Image shaped(Image visibility, const Settings& settings);
+
 // The visibility as a texture that the composite can read.
 gl::Texture visibilityTexture(const Image& visibility);
 

@@ -263,6 +263,18 @@ int guardPixels(const Settings& settings, int height) {
                : 0;
 }
 
+namespace {
+
+// `width` and `height` are those that the technique works on.
+gl::SlicedTarget targetOf(const Settings& settings, const Pass& pass, int width, int height) {
+    const auto scaled = [&](int size) { return (size + pass.scale - 1) / pass.scale; };
+    return gl::SlicedTarget(scaled(width), scaled(height), formatOf(settings, pass),
+                            {pass.levels, pass.layers, pass.scale > 1},
+                            fmt::format("{} {}", settings.technique().id, pass.name));
+}
+
+} // namespace
+
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
     : settings_(settings), block_(settingsBlock(settings)),
       open_(gl::constantTexture({1, 1, 1, 1})) {
@@ -282,17 +294,23 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         const int own = unit++;
         if (!enabled(settings, pass))
             continue;
-        const std::string label = fmt::format("{} {}", technique.id, pass.name);
         std::optional<gl::Program> levels;
         if (pass.levels > 1)
             levels = passProgram(settings, pass, 1);
-        const auto scaled = [&](int size) { return (size + pass.scale - 1) / pass.scale; };
         steps_.push_back({&pass, passProgram(settings, pass), std::move(levels),
-                          gl::SlicedTarget(scaled(width), scaled(height), formatOf(settings, pass),
-                                           {pass.levels, pass.layers, pass.scale > 1}, label),
-                          own});
+                          targetOf(settings, pass, width, height), own});
     }
     points_ = pointsOf(settings);
+}
+
+void OcclusionPasses::resize(int width, int height) {
+    if (reduction_) {
+        reduction_->resize(width, height);
+        width = reduction_->width();
+        height = reduction_->height();
+    }
+    for (Step& step : steps_)
+        step.target = targetOf(settings_, *step.pass, width, height);
 }
 
 void OcclusionPasses::set(const Settings& settings) {

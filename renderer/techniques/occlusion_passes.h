@@ -70,6 +70,9 @@ class OcclusionPasses {
     // same, because they are constants of the shaders.
     void set(const Settings& settings);
 
+    // From now on images of this size, without compiling anything. What passes gave is lost.
+    void resize(int width, int height);
+
     // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
     // texture lives as long as this object.
     const gl::Texture& visibility(const OcclusionInputs& inputs,

@@ -17,6 +17,10 @@ gl::Target pickedTarget(int factor, bool normals, int width, int height) {
                       std::span(formats).first(normals ? 2 : 1), false, "picked pixels");
 }
 
+gl::Target fullTarget(int width, int height, gl::Format format) {
+    return gl::Target(width, height, std::array{format}, false, "upsampled visibility");
+}
+
 void drawOver(const gl::ScreenTriangle& triangle, const gl::Target& target) {
     gl::State().apply();
     target.bind();
@@ -57,10 +61,15 @@ Reduction::Reduction(int factor, bool normals, int width, int height, gl::Format
     : factor_(factor), reduce_("reduce", shaderText("screen.vert"), reduceShader()),
       upsample_("upsample", shaderText("screen.vert"), upsampleShader()),
       picked_(pickedTarget(factor, normals, width, height)),
-      full_(width, height, std::array{format}, false, "upsampled visibility") {
+      full_(fullTarget(width, height, format)) {
     reduce_.set("factor", factor);
     reduce_.set("hasNormals", normals ? 1 : 0);
     upsample_.set("factor", factor);
+}
+
+void Reduction::resize(int width, int height) {
+    picked_ = pickedTarget(factor_, picked_.count() > 1, width, height);
+    full_ = fullTarget(width, height, full_.format(0));
 }
 
 void Reduction::reduce(const GBuffer& gbuffer, const Frame& frame) {

@@ -16,6 +16,9 @@ class Reduction {
     // `format` is that of the visibility that is upsampled and of the result.
     Reduction(int factor, bool normals, int width, int height, gl::Format format);
 
+    // The same for images of another full size, without compiling anything.
+    void resize(int width, int height);
+
     int width() const { return picked_.width(); }
     int height() const { return picked_.height(); }
 

@@ -1,8 +1,9 @@
 #include "base/error.h"
 #include "bench/choose/choose.h"
-#include "bench/choose/radius.h"
-#include "bench/measure/viewpoints.h"
 #include "gl/context.h"
+#include "renderer/builtin/builtin.h"
+#include "renderer/found_cameras.h"
+#include "renderer/reference/sight.h"
 #include "tests/folder.h"
 
 #include <gmock/gmock.h>
@@ -15,20 +16,14 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(Radius, IsOneTwoOrFiveTimesAPowerOfTen) {
-    const std::pair<double, double> rounded[] = {
-        {0.5, 0.5}, {1.4, 1},  {1.42, 2},       {3, 2},        {3.2, 5},
-        {7, 5},     {7.1, 10}, {0.0012, 0.001}, {0.068, 0.05}, {0.08, 0.1}};
-    for (const auto& [metres, expected] : rounded)
-        EXPECT_NEAR(roundRadius(metres), expected, 1e-12 * expected) << metres;
-}
-
 // A scene says how large it is by what it shows: a hall wants a larger radius than a sculpture, and
 // within it something is occluded and not everything.
 TEST(Radius, FollowsTheScene) {
-    const gl::Context context;
-    const SuggestedRadius hall = suggestedRadius(viewOfScene("atrium"), {}, 4, 1),
-                          sculpture = suggestedRadius(viewOfScene("sculpture"), {}, 4, 1);
+    const auto of = [](const char* name) {
+        const Scene scene = builtinScene(name);
+        return suggestedRadius(Sight(scene), RayTracer(scene), 4, 1);
+    };
+    const SuggestedRadius hall = of("atrium"), sculpture = of("sculpture");
     EXPECT_GE(hall.metres, 0.2); // studies of it have 0.5
     EXPECT_LE(hall.metres, 1);
     EXPECT_GE(sculpture.metres, 0.02);

@@ -3,10 +3,11 @@
 #include "bench/choose/choose.h"
 #include "bench/choose/report.h"
 #include "bench/measure/timing.h"
-#include "bench/measure/viewpoints.h"
 #include "bench/sweep/files.h"
 #include "gl/context.h"
 #include "renderer/builtin/builtin.h"
+#include "renderer/found_cameras.h"
+#include "renderer/reference/sight.h"
 #include "tests/error_of.h"
 #include "tests/foreign_files.h"
 
@@ -261,18 +262,16 @@ TEST(Timing, NamesPassesAndTheirWork) {
 
 TEST(Viewpoints, SeeTheSceneFromDifferentSides) {
     const gl::Context context;
-    View like;
-    like.builtin = "sculpture";
-    like.radius = 0.2;
-    const std::vector<View> views = viewpoints(like, {}, 2, 1);
-    ASSERT_EQ(views.size(), 2u);
-    const Subject subject(builtinScene("sculpture"));
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        const Probe probe(subject, views[i].camera, 32, 18, Normals::smooth, 1);
+    const Scene scene = builtinScene("sculpture");
+    const std::vector<Camera> cameras = foundCameras(Sight(scene), RayTracer(scene), 0.2, 2, 1);
+    ASSERT_EQ(cameras.size(), 2u);
+    const Subject subject(scene);
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        const Probe probe(subject, cameras[i], 32, 18, Normals::smooth, 1);
         const auto shown = std::count(probe.shown().begin(), probe.shown().end(), true);
-        EXPECT_GT(shown, 32 * 18 / 10) << views[i].name;
+        EXPECT_GT(shown, 32 * 18 / 10) << i;
         for (std::size_t j = 0; j < i; ++j)
-            EXPECT_NE(views[i].camera.position, views[j].camera.position);
+            EXPECT_NE(cameras[i].position, cameras[j].position);
     }
 }
 

@@ -2,6 +2,7 @@
 #include "renderer/builtin/builtin.h"
 #include "renderer/frame/surfaces.h"
 #include "renderer/reference/ray_scene.h"
+#include "renderer/reference/sight.h"
 #include "tests/renderer/techniques/occlusion_fixture.h"
 
 #include <cmath>
@@ -30,6 +31,22 @@ class RaysAndRasteriser : public GlTest {
             }
         return static_cast<double>(agree) / (width * height);
     }
+    // The share of pixels of which Sight and the rasteriser say the same, normals included.
+    static double sightAgreement(const Scene& scene, const Camera& camera, int width, int height) {
+        const GpuScene gpuScene(scene);
+        const Surfaces drawn =
+            surfacesOf(gpuScene, GBufferPass(),
+                       makeFrame(camera, width, height, gpuScene.bounds(), 1), Normals::smooth);
+        const Surfaces seen = Sight(scene).surfaces(camera, width, height);
+        int agree = 0;
+        for (std::size_t i = 0; i < drawn.depth.size(); ++i)
+            agree += drawn.empty(i)
+                         ? seen.empty(i)
+                         : std::abs(seen.depth[i] - drawn.depth[i]) < 2e-3f * drawn.depth[i] &&
+                               glm::dot(seen.normal[i], drawn.normal[i]) > 0.995f &&
+                               glm::dot(seen.faceNormal[i], drawn.faceNormal[i]) > 0.99f;
+        return static_cast<double>(agree) / (width * height);
+    }
     static float depthOfRay(const RayScene& rays, const Surfaces& surfaces, int x, int y) {
         const Frame& frame = surfaces.frame;
         const glm::vec3 camera(frame.worldFromView[3]);
@@ -50,7 +67,24 @@ TEST_F(RaysAndRasteriser, AgreeOnTheAtrium) {
     camera.position = {7.6, 1.2, -0.9};
     camera.target = {-4, 2.4, 1.2};
     camera.fovDegrees = 60;
-    EXPECT_GT(agreement(builtinScene("atrium"), camera, 320, 180), 0.995);
+    const Scene atrium = builtinScene("atrium");
+    EXPECT_GT(agreement(atrium, camera, 320, 180), 0.995);
+    EXPECT_GT(sightAgreement(atrium, camera, 160, 90), 0.97);
+}
+
+// From within a box of which only the outside is drawn, one sees what is around it; a picture and
+// who looks by rays alike.
+TEST_F(RaysAndRasteriser, AgreeOnBacks) {
+    Scene scene;
+    addBox(scene, glm::vec3(-1), glm::vec3(1));
+    addBox(scene, glm::vec3(-2, -1, -6), glm::vec3(0.5, 2, -5));
+    Camera camera;
+    camera.target = {0.3, 0.1, -4};
+    const Surfaces seen = Sight(scene).surfaces(camera, 64, 36);
+    EXPECT_NEAR(seen.depth[seen.index(20, 18)], 5, 0.2);
+    EXPECT_GT(sightAgreement(scene, camera, 64, 36), 0.98);
+    scene.materials[0].doubleSided = true;
+    EXPECT_GT(sightAgreement(scene, camera, 64, 36), 0.98);
 }
 
 // A sheet with square holes above a floor; filtered, repeated, mirrored by negative coordinates.

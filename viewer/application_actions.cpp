@@ -1,0 +1,162 @@
+// What the user asks for that is more than a value: scenes, studies, screenshots, tests.
+#include "viewer/application.h"
+#include "viewer/screenshot.h"
+#include "viewer/technique_words.h"
+#include "viewer/to_study.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace obscura {
+
+namespace {
+
+std::string lines(const std::vector<std::string>& notes) {
+    std::string text;
+    for (const std::string& note : notes)
+        text += "\n" + note;
+    return text;
+}
+
+Seen seenOf(const State& state, const Wanted& wanted) {
+    Seen seen;
+    seen.view = state.view;
+    const View& chosen = state.views[static_cast<std::size_t>(state.viewAt)];
+    const bool unmoved = chosen.camera.position == state.view.camera.position &&
+                         chosen.camera.target == state.view.camera.target;
+    seen.view.name = unmoved ? chosen.name : "";
+    seen.level = state.level;
+    seen.normals = state.normals;
+    seen.textures = state.textures;
+    seen.width = wanted.width;
+    seen.height = wanted.height;
+    seen.panes = wanted.panes;
+    return seen;
+}
+
+// The panes' techniques under names of their own, each once.
+std::vector<TechniqueSetting> techniquesOf(const Wanted& wanted) {
+    std::vector<TechniqueSetting> all;
+    for (const Settings& settings : wanted.panes) {
+        TechniqueSetting setting = settingOf(settings, wanted.view.radius);
+        setting.name = nameOf(setting);
+        if (std::none_of(all.begin(), all.end(),
+                         [&](const auto& each) { return each.name == setting.name; }))
+            all.push_back(setting);
+    }
+    return all;
+}
+
+} // namespace
+
+// What goes wrong here is the user's to mend, and the window's to say.
+void Application::carryOut(const Requests& requests) try {
+    if (requests.open)
+        open(*requests.open);
+    if (requests.browse)
+        browser_.open = true;
+    if (requests.frame && opened_)
+        state_.view.camera = opened_->camera;
+    if (requests.copy) {
+        window_.copyText(*requests.copy);
+        say("Copied: " + *requests.copy);
+    }
+    if (requests.screenshot)
+        askForScreenshot();
+    addStudy(requests);
+    if (requests.startTest)
+        startTest();
+    if (requests.stopTest && test_)
+        test_->stop();
+} catch (const Error& problem) {
+    say(problem.what(), true);
+}
+
+void Application::addStudy(const Requests& requests) {
+    if (!opened_)
+        return;
+    if (requests.copySettings) {
+        window_.copyText(tablesText(seenOf(state_, wanted())));
+        say("Copied scene, light and techniques as TOML.");
+    }
+    if (requests.addPair) {
+        const Added added = addPair(desk_.protocol, seenOf(state_, wanted()));
+        say(fmt::format("Condition \"{}\" is in {}.{}", added.condition, desk_.protocol,
+                        lines(added.notes)));
+    }
+    if (requests.writeSweep) {
+        std::vector<View> views = state_.views;
+        for (View& view : views) {
+            view.file = state_.view.file;
+            view.builtin = state_.view.builtin;
+            view.ground = state_.view.ground;
+        }
+        writeSweep(desk_.sweep, views, seenOf(state_, wanted()));
+        say(fmt::format("{} has {} views; obscura-bench sweep takes it.", desk_.sweep,
+                        views.size()));
+    }
+}
+
+void Application::askForScreenshot() {
+    if (!drawn_ || !opened_ || shot_)
+        return;
+    shot_ = std::make_shared<Shot>();
+    shot_->drawn = drawn_;
+    worker_->capture([shot = shot_](std::vector<Image> visibilities) {
+        const std::lock_guard lock(shot->mutex);
+        shot->visibilities = std::move(visibilities);
+        shot->taken = true;
+    });
+}
+
+void Application::saveScreenshot() try {
+    if (!shot_)
+        return;
+    std::vector<Image> visibilities;
+    {
+        const std::lock_guard lock(shot_->mutex);
+        if (!shot_->taken)
+            return;
+        visibilities = std::move(shot_->visibilities);
+    }
+    const Drawn drawn = *std::exchange(shot_, nullptr)->drawn;
+    const View view = seenOf(state_, drawn.wanted).view;
+    std::string written;
+    for (std::size_t i = 0; i < drawn.panes.size(); ++i) {
+        const std::string name = screenshotName(view, drawn.wanted.panes[i], drawn.wanted.show);
+        const Screenshot saved =
+            writeScreenshot(desk_.pictures, name, imageOf(*drawn.panes[i].picture),
+                            i < visibilities.size() ? visibilities[i] : Image{});
+        written += (written.empty() ? "" : "\n") + saved.png.string();
+    }
+    say("Saved as PNG, and visibility as EXR beside:\n" + written);
+} catch (const Error& problem) {
+    say(problem.what(), true);
+}
+
+void Application::startTest() {
+    if (!opened_ || (test_ && !test_->finished()))
+        return;
+    TestPlan plan;
+    const Wanted now = wanted();
+    plan.cameras = state_.views;
+    for (View& view : plan.cameras) {
+        view.file = state_.view.file;
+        view.builtin = state_.view.builtin;
+        view.ground = state_.view.ground;
+    }
+    plan.techniques = techniquesOf(now);
+    plan.level = state_.level;
+    plan.normals = state_.normals;
+    plan.textures = state_.textures;
+    plan.width = now.width;
+    plan.height = now.height;
+    plan.seconds = desk_.seconds;
+    plan.rounds = static_cast<int>(desk_.rounds);
+    plan.out = desk_.out;
+    plan.scenes = line_.scenes;
+    test_ = std::make_unique<TestRun>(plan, ViewerWindow::wake);
+}
+
+} // namespace obscura
