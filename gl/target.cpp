@@ -117,6 +117,10 @@ GLint modeOf(Minified minified) {
 
 } // namespace
 
+bool isAnisotropic(bool srgb, Sampling sampling) {
+    return srgb && sampling.minified == Minified::linearMipmapLinear;
+}
+
 Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint8_t> rgba,
                      Sampling sampling) {
     Texture texture(GL_TEXTURE_2D);
@@ -133,12 +137,8 @@ Texture imageTexture(int width, int height, bool srgb, std::span<const std::uint
     setParameter(texture, GL_TEXTURE_WRAP_T, modeOf(sampling.v));
     // Colour only: software drivers take five times as long for it, and blurred relief at grazing
     // angles is not seen.
-    if (srgb && sampling.minified == Minified::linearMipmapLinear &&
-        epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic")) {
-        GLfloat most = 1;
-        glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
-        glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT, std::min(most, 8.0f));
-    }
+    if (isAnisotropic(srgb, sampling))
+        filterAnisotropically(texture, true);
     return texture;
 }
 
@@ -169,6 +169,15 @@ Texture constantTexture(std::array<float, 4> value) {
     Texture texture = targetTexture(1, 1, Format::rgba32f, "constant");
     glTextureSubImage2D(texture.name(), 0, 0, 0, 1, 1, GL_RGBA, GL_FLOAT, value.data());
     return texture;
+}
+
+void filterAnisotropically(const Texture& texture, bool anisotropically) {
+    if (!epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        return;
+    GLfloat most = 1;
+    glGetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &most);
+    glTextureParameterf(texture.name(), GL_TEXTURE_MAX_ANISOTROPY_EXT,
+                        anisotropically ? std::min(most, 8.0f) : 1.0f);
 }
 
 void bindTexture(int unit, const Texture& texture) {

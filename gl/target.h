@@ -58,6 +58,11 @@ Texture constantTexture(std::array<float, 4> value);
 
 void bindTexture(int unit, const Texture& texture);
 
+// Which images' textures are filtered anisotropically when they are made; and how to have it
+// otherwise for some time.
+bool isAnisotropic(bool srgb, Sampling sampling);
+void filterAnisotropically(const Texture& texture, bool anisotropically);
+
 // How a target's texture looks where it is shown at another size: pixels as squares, or blended.
 void filterLinearly(const Texture& texture, bool linearly);
 

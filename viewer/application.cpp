@@ -53,9 +53,11 @@ Application::Application(const CommandLine& line)
     : line_(line), window_(line.width, line.height, line.uiScale), state_(stateOf(line)),
       worker_(std::make_unique<Worker>(window_.workerContext(), ViewerWindow::wake,
                                        !window_.sharesWithWorker())) {
+    if (line_.scenes.empty())
+        line_.scenes = ".";
     browser_.folder = fs::current_path();
-    if (!line.scenes.empty() && fs::is_directory(line.scenes))
-        browser_.folder = fs::canonical(line.scenes);
+    if (fs::is_directory(line_.scenes))
+        browser_.folder = fs::canonical(line_.scenes);
     open(line.scene);
 }
 

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <map>
+#include <semaphore>
 
 namespace {
 
@@ -56,7 +57,9 @@ void move(Camera& camera, int frame) {
 int run(int argc, char** argv) {
     if (argc < 3)
         throw Error("expected SCENE TECHNIQUE [WIDTH HEIGHT [SETTING=VALUE ...]]");
-    Worker worker([]() -> std::shared_ptr<void> { return std::make_shared<gl::Context>(); }, [] {});
+    std::counting_semaphore<> told(0);
+    Worker worker([]() -> std::shared_ptr<void> { return std::make_shared<gl::Context>(); },
+                  [&] { told.release(); });
     const std::string scene = argv[1];
     const bool file = scene.find('.') != std::string::npos;
     worker.open({file ? scene : "", file ? "" : scene, {}});
@@ -77,8 +80,9 @@ int run(int argc, char** argv) {
     for (int i = 0; i < frames; ++i) {
         move(wanted.view.camera, i);
         worker.want(wanted);
-        worker.waitUntilDrawn(60);
-        const auto drawn = worker.newest();
+        auto drawn = worker.newest();
+        for (; !(drawn->wanted == wanted); drawn = worker.newest())
+            told.acquire();
         sums["G-buffer"] += drawn->gbufferMs;
         sums["light"] += drawn->lightMs;
         for (const PassDrawn& pass : drawn->panes[0].passes)

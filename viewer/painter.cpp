@@ -246,6 +246,7 @@ std::shared_ptr<const SharedPicture> Painter::State::difference(const Drawn& dra
 Drawn Painter::State::summary() const {
     Drawn drawn;
     drawn.wanted = wanted;
+    drawn.draft = !buffers->sight().sharp;
     drawn.gbufferMs = gbufferMs;
     drawn.lightMs = lightMs;
     const Truth* truth = needsReference() ? reference() : nullptr;
@@ -266,7 +267,7 @@ Drawn Painter::State::summary() const {
     return drawn;
 }
 
-Drawn Painter::draw(const Wanted& wanted, const Progress& progress) {
+Drawn Painter::draw(const Wanted& wanted, const Progress& progress, bool draft) {
     const auto start = std::chrono::steady_clock::now();
     State& s = *state_;
     check(wanted, s.scene);
@@ -286,7 +287,7 @@ Drawn Painter::draw(const Wanted& wanted, const Progress& progress) {
         s.references.clear();
     }
     s.clock.start();
-    const bool drewGBuffer = s.buffers->drawGBuffer(wanted, lit);
+    const bool drewGBuffer = s.buffers->drawGBuffer(wanted, lit, !draft);
     const std::size_t gbuffer = s.clock.mark();
     const bool drewLight = lit && s.buffers->drawLight();
     const std::size_t lightPiece = s.clock.mark();

@@ -74,9 +74,11 @@ class Painter {
     using Progress = std::function<void(const Step&)>;
 
     // Draws and waits until the GPU has finished. `wanted.scene` must be scene(), and there must be
-    // one to four panes and at least one pixel. What cannot be drawn (an environment that cannot be
-    // read, settings that do not go together) is an Error, and nothing of what is kept is lost.
-    Drawn draw(const Wanted& wanted, const Progress& progress = {});
+    // one to four panes and at least one pixel. A `draft`, where the view has to be drawn anew, has
+    // textures that are blurred at grazing angles (GpuScene::sharpen). What cannot be drawn (an
+    // environment that cannot be read, settings that do not go together) is an Error, and nothing
+    // of what is kept is lost.
+    Drawn draw(const Wanted& wanted, const Progress& progress = {}, bool draft = false);
 
     // Draws all of the view anew next time (G-buffer, light, visibility, pictures), so that a time
     // is that of a whole frame. What is compiled stays, and so does the scene.

@@ -96,7 +96,8 @@ std::optional<Probed> Painter::probe(int x, int y) const {
     result.x = x;
     result.y = y;
     const int row = s.wanted.height - 1 - y;
-    const auto& [frame, block, gbuffer, white, view, version] = s.buffers->sight();
+    const Frame& frame = s.buffers->sight().frame;
+    const GBuffer& gbuffer = s.buffers->sight().gbuffer;
     const float depth = gl::readTexel(gbuffer.depth(), x, row)[0];
     const glm::mat3 rotation(frame.worldFromView);
     result.surface = depth < frame.depth.y;

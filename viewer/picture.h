@@ -104,6 +104,8 @@ struct PaneDrawn {
 struct Drawn {
     Wanted wanted;
     std::vector<PaneDrawn> panes; // as many as wanted
+    bool draft = false; // textures are blurred at grazing angles, as the camera moves on a software
+                        // driver; a sharp picture follows once it rests
     // Pane 0's visibility minus pane 1's or, where lit pictures are shown, its luma (0 ... 1) minus
     // the other's (errorColours): blue where pane 1 is darker. Null unless wanted, and with one
     // pane.

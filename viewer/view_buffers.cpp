@@ -73,10 +73,10 @@ bool ViewBuffers::see(const Wanted& wanted) {
     return true;
 }
 
-bool ViewBuffers::draw(int guard, const GBufferContent& content, bool white) {
+bool ViewBuffers::draw(int guard, const GBufferContent& content, bool white, bool sharp) {
     const auto known = sights_.find(guard);
     if (known != sights_.end() && known->second.view == view_ && known->second.white == white &&
-        holds(known->second.gbuffer.content(), content))
+        (known->second.sharp || !sharp) && holds(known->second.gbuffer.content(), content))
         return false;
     const int width = width_ + 2 * guard, height = height_ + 2 * guard;
     const Frame frame =
@@ -89,16 +89,18 @@ bool ViewBuffers::draw(int guard, const GBufferContent& content, bool white) {
     sights_.erase(guard);
     const Sight& sight = sights_
                              .emplace(guard, Sight{frame, frameBuffer(frame), std::move(gbuffer),
-                                                   white, view_, ++drawn_})
+                                                   white, sharp, view_, ++drawn_})
                              .first->second;
     bindFrame(sight.block);
+    subject_.scene().sharpen(sharp);
     subject_.pass().draw(subject_.scene(), frame, sight.gbuffer);
+    subject_.scene().sharpen(true);
     if (white && content.albedo) // and no metal
         sight.gbuffer.target().clear(0, {1, 1, 1, 0});
     return true;
 }
 
-bool ViewBuffers::drawGBuffer(const Wanted& wanted, bool lit) {
+bool ViewBuffers::drawGBuffer(const Wanted& wanted, bool lit, bool sharp) {
     // Wider ones of views past are of no use, but for their memory.
     std::erase_if(sights_, [&](const auto& each) {
         return each.first > 0 &&
@@ -110,13 +112,14 @@ bool ViewBuffers::drawGBuffer(const Wanted& wanted, bool lit) {
     content.shadingNormal = lit && lighting_->readsNormals();
     content.occlusionNormal = occlusionNormals(wanted);
     content.emission = lit && wanted.textures && subject_.scene().emits();
-    return draw(0, content, !wanted.textures);
+    return draw(0, content, !wanted.textures, sharp);
 }
 
 bool ViewBuffers::drawPadded(const Wanted& wanted, const Settings& settings) {
     const int guard = guardPixels(settings, wanted.height);
     return guard > 0 &&
-           draw(guard, {false, false, normalsFor(settings.technique(), wanted.normals)}, false);
+           draw(guard, {false, false, normalsFor(settings.technique(), wanted.normals)}, false,
+                true);
 }
 
 bool ViewBuffers::drawLight() {

@@ -23,6 +23,7 @@ class ViewBuffers {
         gl::UniformBuffer block;
         GBuffer gbuffer;
         bool white;            // the albedo, instead of the scene's
+        bool sharp;            // textures (GpuScene::sharpen); else a sharp one may take its place
         std::uint64_t view;    // what was seen when it was drawn
         std::uint64_t version; // another number, another content
     };
@@ -37,7 +38,7 @@ class ViewBuffers {
 
     // Draw what a wish needs, where it is not there: false for nothing done. Light needs a level,
     // and a G-buffer that was drawn `lit`.
-    bool drawGBuffer(const Wanted& wanted, bool lit);
+    bool drawGBuffer(const Wanted& wanted, bool lit, bool sharp);
     bool drawPadded(const Wanted& wanted, const Settings& settings);
     bool drawLight();
 
@@ -51,7 +52,7 @@ class ViewBuffers {
     std::array<double, 2> depthRange() const;
 
   private:
-    bool draw(int guard, const GBufferContent& content, bool white);
+    bool draw(int guard, const GBufferContent& content, bool white, bool sharp);
 
     const Subject& subject_;
     std::string level_, seen_; // texts of what `lighting_` and the view were made from

@@ -63,12 +63,15 @@ struct Worker::State {
     void wakeFor(bool& news);
     bool canDraw() const;
     bool hasWork() const;
-    bool idle() const { return !busy && !hasWork() && !opening && !wish; }
+    bool idle() const {
+        return !busy && !hasWork() && !opening && !wish && !(drawn && drawn->draft && restDue);
+    }
     void run(const MakeContext& makeContext);
     void loop(Painter& painter);
     void step(Painter& painter, bool rested);
     void openLoaded(Painter& painter);
-    void draw(Painter& painter, const Wanted& wanted);
+    void draw(Painter& painter, const Wanted& wanted, bool draft = false);
+    bool isMotion(const Wanted& wanted) const;
     void follow(Painter& painter);
     void refresh(Painter& painter);
     void atRest(Painter& painter);
@@ -102,6 +105,7 @@ struct Worker::State {
     std::optional<Clock::time_point> restDue; // when there is something to do at rest
 
     // The drawing thread's own.
+    bool software = false;                 // rasteriser
     std::shared_ptr<const RayTracer> rays; // of the scene that is drawn
     std::uint64_t tracedView = 0;
     std::vector<TruthKind> tracedKinds;
@@ -139,8 +143,8 @@ void Worker::State::run(const MakeContext& makeContext) {
     try {
         const std::shared_ptr<void> context = makeContext();
         gl::collectMessages();
-        Painter painter(gl::currentDriver().software ? gl::Timing::finish
-                                                     : gl::honestTiming().timing);
+        software = gl::currentDriver().software;
+        Painter painter(software ? gl::Timing::finish : gl::honestTiming().timing);
         loop(painter);
     } catch (const std::exception& error) {
         const std::lock_guard lock(mutex);
@@ -188,8 +192,9 @@ void Worker::State::step(Painter& painter, bool rested) {
     } else if (canDraw()) {
         last = *std::exchange(wish, std::nullopt);
         const Wanted wanted = *last;
+        const bool draft = software && isMotion(wanted);
         lock.unlock();
-        draw(painter, wanted);
+        draw(painter, wanted, draft);
         follow(painter);
     } else if (const auto taken = std::exchange(capture, nullptr)) {
         const bool there = drawn && drawn->wanted.scene == painter.scene();
@@ -308,11 +313,19 @@ void Worker::State::publish(Drawn picture) {
     notify();
 }
 
-void Worker::State::draw(Painter& painter, const Wanted& wanted) {
+// Whether this is the last picture from elsewhere.
+bool Worker::State::isMotion(const Wanted& wanted) const {
+    return drawn && drawn->wanted.scene == wanted.scene && drawn->wanted.width == wanted.width &&
+           drawn->wanted.height == wanted.height &&
+           !(drawn->wanted.view.camera == wanted.view.camera);
+}
+
+void Worker::State::draw(Painter& painter, const Wanted& wanted, bool draft) {
     say({Status::Doing::drawing, ""});
     std::string problem;
     try {
-        publish(painter.draw(wanted, [&](const Painter::Step& step) { before(step); }));
+        publish(painter.draw(
+            wanted, [&](const Painter::Step& step) { before(step); }, draft));
     } catch (const Overtaken&) {
         return;
     } catch (const std::exception& error) {
@@ -343,7 +356,7 @@ void Worker::State::follow(Painter& painter) {
     const std::lock_guard lock(mutex);
     traceError.clear();
     restDue.reset();
-    if (!kinds.empty())
+    if (!kinds.empty() || (drawn && drawn->draft))
         restDue = Clock::now() + rest;
 }
 
@@ -378,6 +391,14 @@ void Worker::State::refresh(Painter& painter) {
 
 void Worker::State::atRest(Painter& painter) {
     std::string problem;
+    std::optional<Wanted> unsharp;
+    {
+        const std::lock_guard lock(mutex);
+        if (drawn && drawn->draft && last && last->scene == painter.scene())
+            unsharp = last;
+    }
+    if (unsharp)
+        draw(painter, *unsharp);
     try {
         const std::vector<TruthKind> kinds = painter.truthsWanted();
         if (kinds.empty() || !rays)

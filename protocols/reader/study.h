@@ -20,6 +20,8 @@ struct Camera {
     Vec3 up{0, 1, 0};       //
     double fovDegrees = 50; // vertical, 1 ... 120
     double near = 0;        // metres; 0: as the scene's size wants it (nearPlane)
+
+    bool operator==(const Camera&) const = default;
 };
 
 // What is wrong with it: "" for a camera that sees something. It must be finite, look somewhere

@@ -21,17 +21,13 @@ void Composite::set(const View& view, const Level& level) {
     program_.set("occludeDirect", level.occludeDirect ? 1 : 0);
 }
 
-void Composite::restart() {
-    for (int i = 0; i < sum_.count(); ++i)
-        sum_.clear(i, {0, 0, 0, 0});
-    frames_ = 0;
-}
+void Composite::restart() { frames_ = 0; }
 
 void Composite::draw(const LightBuffers& light, const gl::Texture& visibility, bool sendsLight,
                      int guard, const gl::Texture* emission) {
     sum_.bind();
     gl::State state;
-    state.add = true;
+    state.add = frames_ > 0; // the first takes the place of what was there
     state.apply();
     program_.use();
     program_.set("sendsLight", sendsLight ? 1 : 0);

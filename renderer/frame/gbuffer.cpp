@@ -115,17 +115,27 @@ GpuScene::GpuScene(const Scene& scene)
       lights_(scene.lights),
       geometry_(bytesOf(scene.vertices), std::array{3, 3, 4, 2, 2, 4}, scene.indices),
       white_(gl::constantTexture({1, 1, 1, 1})) {
-    for (const Texture& texture : scene.textures)
-        textures_.push_back(gl::imageTexture(
-            texture.image.width, texture.image.height, texture.srgb, texture.image.pixels,
-            {static_cast<gl::Wrap>(texture.wrapU), static_cast<gl::Wrap>(texture.wrapV),
-             texture.nearest, static_cast<gl::Minified>(texture.minified)}));
+    for (const Texture& texture : scene.textures) {
+        const gl::Sampling sampling{static_cast<gl::Wrap>(texture.wrapU),
+                                    static_cast<gl::Wrap>(texture.wrapV), texture.nearest,
+                                    static_cast<gl::Minified>(texture.minified)};
+        if (gl::isAnisotropic(texture.srgb, sampling))
+            anisotropic_.push_back(textures_.size());
+        textures_.push_back(gl::imageTexture(texture.image.width, texture.image.height,
+                                             texture.srgb, texture.image.pixels, sampling));
+    }
     for (const Mesh& mesh : meshes_) {
         pieces_.push_back(piecesOf(scene, mesh));
         features_.push_back(featuresOf(scene, mesh));
         kinds_.insert(features_.back());
         emits_ = emits_ || materials_[static_cast<std::size_t>(mesh.material)].emits();
     }
+}
+
+void GpuScene::sharpen(bool sharp) const {
+    if (std::exchange(sharp_, sharp) != sharp)
+        for (const std::size_t each : anisotropic_)
+            gl::filterAnisotropically(textures_[each], sharp);
 }
 
 const gl::Texture& GpuScene::texture(const TextureUse& use) const {

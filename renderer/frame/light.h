@@ -59,7 +59,7 @@ class Lighting {
     explicit Lighting(const Level& level, const GpuScene& scene, const Image& panorama);
 
     Level level_;
-    gl::Texture panorama_; // its levels are Reflections; empty where ambient light is constant
+    gl::Texture panorama_;    // its levels are Reflections; empty where ambient light is constant
     gl::Texture reflectance_; // reflectanceTable(), beside it
     gl::UniformBuffer environment_;
     std::optional<gl::UniformBuffer> sceneLights_;

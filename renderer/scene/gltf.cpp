@@ -12,8 +12,6 @@
 #include "renderer/scene/scene.h"
 
 #include <fmt/format.h>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -88,21 +86,6 @@ class Loader {
 
     // Nodes -------------------------------------------------------------------------------------
 
-    static glm::dmat4 transformOf(const tinygltf::Node& node) {
-        if (!node.matrix.empty())
-            return glm::make_mat4(node.matrix.data());
-        glm::dmat4 result(1);
-        if (!node.translation.empty())
-            result[3] = glm::dvec4(glm::make_vec3(node.translation.data()), 1);
-        if (!node.rotation.empty())
-            result *= glm::mat4_cast(glm::normalize(glm::dquat(
-                node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])));
-        if (!node.scale.empty())
-            for (int i = 0; i < 3; ++i)
-                result[i] *= node.scale[static_cast<std::size_t>(i)];
-        return result;
-    }
-
     // Where each node of the scene is, in its order: joints may come after what hangs on them.
     void place(int index, const glm::dmat4& parent, int depth) {
         const auto i = static_cast<std::size_t>(index);
@@ -125,8 +108,10 @@ class Loader {
             return;
         const std::size_t primitives =
             model_.meshes[static_cast<std::size_t>(node.mesh)].primitives.size();
-        for (std::size_t i = 0; i < primitives; ++i)
-            addPrimitive(primitive(node.mesh, i), index);
+        const auto i = static_cast<std::size_t>(index);
+        for (const glm::dmat4& worldFromMesh : instancesOf(file_, model_, i, *worldFromNode_[i]))
+            for (std::size_t k = 0; k < primitives; ++k)
+                addPrimitive(primitive(node.mesh, k), node, worldFromMesh);
     }
 
     void addCamerasAndLights() {
@@ -162,12 +147,12 @@ class Loader {
                                     : node.weights;
     }
 
-    void addPrimitive(const GltfPrimitive& primitive, int index) {
+    void addPrimitive(const GltfPrimitive& primitive, const tinygltf::Node& node,
+                      const glm::dmat4& worldFromMesh) {
         if (!primitive.isTriangles()) {
             warn("points and lines are left out");
             return;
         }
-        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
         Piece piece;
         piece.corners = primitive.corners(cornersLeft());
         // Only the vertices that the triangles use, in their order: buffers may be shared.
@@ -180,7 +165,7 @@ class Loader {
         GltfPose pose;
         pose.weights = weightsOf(node);
         pose.worldFromMesh =
-            node.skin < 0 ? std::vector{*worldFromNode_[static_cast<std::size_t>(index)]}
+            node.skin < 0 ? std::vector{worldFromMesh}
                           : skinned(file_, primitive,
                                     jointsOf(file_, model_, node.skin, worldFromNode_), used);
         if (primitive.material() >= 0)

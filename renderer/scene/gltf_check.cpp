@@ -262,6 +262,11 @@ class Checker : private GltfJson {
         const std::vector<double> q = numbers(node, "rotation", at, 4);
         if (!q.empty() && !(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] > 1e-12))
             wrong(join(at, "rotation"), "a unit quaternion", node.at("rotation"));
+        if (const json* instances = extension(node, "EXT_mesh_gpu_instancing", at)) {
+            const std::string within = extensionPath(at, "EXT_mesh_gpu_instancing");
+            checkAttributes(*find(*instances, "attributes", within, true),
+                            join(within, "attributes"));
+        }
         if (const json* light = extension(node, "KHR_lights_punctual", at)) {
             const std::string within = extensionPath(at, "KHR_lights_punctual");
             const json* lights = extension(root(), "KHR_lights_punctual", "");

@@ -438,6 +438,28 @@ TEST_F(Generate, DepthIsPartOfWhatMustMatch) {
     EXPECT_NE(near.inputsSha256, far.inputsSha256);
 }
 
+// Two scenes that are alike in all but the light that they send by themselves.
+TEST_F(Generate, EmissionIsPartOfWhatMustMatch) {
+    const std::vector<float> wall{-9, -9, 0, 9, -9, 0, 0, 9, 0};
+    writeFile(root_ / "scenes" / "t.bin", trianglesBuffer(wall));
+    const Protocol protocol = parseProtocol(protocolText(), "tiny.toml");
+    const auto inputs = [&](const std::string& emission) {
+        std::string text = trianglesGltf(wall);
+        const std::string before = "\"doubleSided\":true";
+        text.replace(text.find(before), before.size(), before + ",\"emissiveFactor\":" + emission);
+        writeFile(root_ / "scenes" / "t.gltf", text);
+        SceneHashes scenes(folders());
+        Recipe recipe = makeRecipe(protocol, protocol.conditions[0], 0, scenes, context_->driver());
+        recipe.technique = "none";
+        recipe.settings.clear();
+        recipe.view.camera.position = {0, 0, 1};
+        recipe.view.camera.target = {0, 0, 0};
+        return RecipeRenderer(folders()).render(recipe).inputsSha256;
+    };
+    EXPECT_EQ(inputs("[0.1,0,0]"), inputs("[0.1,0.0,0]"));
+    EXPECT_NE(inputs("[0.1,0,0]"), inputs("[0.1,0.1,0]"));
+}
+
 TEST_F(Generate, EveryImageCanBeMadeAgainFromItsRecipeAlone) {
     Manifest manifest = run().manifest;
     manifest.conditions[0].image("b").milliseconds = 1e6; // decides nothing
@@ -601,7 +623,7 @@ TEST_F(Generate, WarnsOfConditionsThatAreWorthNothing) {
               HasSubstr("radius of 0.3 m; by rays the mean occlusion is 0.0000"));
     const auto alike =
         AllOf(HasSubstr("condition \"second\": images a (none) and b (few) look alike"),
-              HasSubstr("1 of 255 at most and 0.04 on average, predicted JOD 10.00 of 10"));
+              HasSubstr("1 of 255 at most and 0.05 on average, predicted JOD 10.00 of 10"));
     EXPECT_THAT(checked(protocolText()), ElementsAre(nothingOccludes, alike));
     EXPECT_THAT(run().warnings, ElementsAre(nothingOccludes, alike));
     EXPECT_THAT(run().warnings, IsEmpty()) << "of images that are kept";

@@ -6,8 +6,10 @@
 #include "renderer/levels.h"
 #include "tests/experiment/desktop.h"
 #include "tests/folder.h"
+#include "tests/renderer/scene/small_gltf.h"
 #include "viewer/application.h"
 
+#include <glm/glm.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,15 +22,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Two triangles of the rectangle with corners a, b and c and the fourth.
+void addRectangle(std::vector<float>& positions, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
+    for (const glm::vec3& p : {a, b, c, a, c, a + c - b})
+        positions.insert(positions.end(), {p.x, p.y, p.z});
+}
+
+// A floor, two walls and, on the floor, a board that stands on end: NAME/NAME.gltf.
+void writeScene(const std::string& name, float board) {
+    std::vector<float> positions;
+    addRectangle(positions, {-3, 0, 3}, {3, 0, 3}, {3, 0, -3});
+    addRectangle(positions, {-3, 0, -3}, {3, 0, -3}, {3, 3, -3});
+    addRectangle(positions, {-3, 0, 3}, {-3, 0, -3}, {-3, 3, -3});
+    addRectangle(positions, {0, 0, -2}, {board, 0, -2}, {board, 2, -2.5F});
+    fs::create_directories(name);
+    writeFile(name + "/t.bin", trianglesBuffer(positions));
+    writeFile(name + "/" + name + ".gltf", trianglesGltf(positions));
+}
+
 class ViewerTest : public testing::Test {
   protected:
-    static constexpr int width = 900, height = 620;
+    static constexpr int width = 820, height = 640;
 
     void SetUp() override {
         ::setenv("DISPLAY", desktop.name().c_str(), 1);
         fs::current_path(folder.path());
+        writeScene("first", 1);
+        writeScene("second", 2);
         CommandLine line;
-        line.scene.builtin = "sculpture";
+        line.scene.file = "first/first.gltf";
         line.level = levelNamed("low");
         line.width = width;
         line.height = height;
@@ -122,7 +144,7 @@ double meanOf(const Image8& image) {
 }
 
 TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
-    // It opened on the sculpture, split, and rests: nothing changes, nothing is drawn.
+    // It opened split, and rests: nothing changes, nothing is drawn.
     ASSERT_EQ(viewer->state().layout, Layout::split);
     ASSERT_TRUE(viewer->drawn());
     EXPECT_EQ(viewer->drawn()->panes.size(), 2U);
@@ -132,17 +154,19 @@ TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
         viewer->step(0.01);
     EXPECT_EQ(viewer->drawn()->number, still);
 
-    // Another scene from the menu.
+    // Another scene by the menu and the browser, which is where the first was.
     click("scene");
-    click("scene figures");
-    await("figures",
-          [&] { return viewer->state().scene.builtin == "figures" && viewer->settled(); });
+    click("Open a file…");
+    click("file ..");
+    click("file second");
+    click("file second.gltf");
+    await("the second scene",
+          [&] { return viewer->state().view.file.ends_with("second.gltf") && viewer->settled(); });
 
     // Occlusion, B alone: a technique is chosen, and its slider darkens the picture.
     tap('2');
     point("pictures", 0.5, 0.9);
-    for (int i = 0; i < 1; ++i)
-        tap('O');
+    tap('O');
     EXPECT_EQ(viewer->state().show, Show::occlusion);
     click("pane B");
     EXPECT_EQ(viewer->state().selected, 1);
@@ -182,6 +206,13 @@ TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
     tap('F');
     EXPECT_EQ(viewer->state().view.camera.target, start.target);
 
+    // The reference is traced, and B is judged by it.
+    click("tab Measure");
+    click("Trace the reference");
+    await("the reference", [&] { return viewer->drawn()->panes[1].quality.has_value(); });
+    EXPECT_LT(viewer->drawn()->panes[1].quality->rmse, viewer->drawn()->panes[0].quality->rmse + 1);
+    click("Trace the reference");
+
     // Pixels are enlarged under the cursor, and probed.
     point("pictures", 0.4, 0.6);
     await("the probe", [&] { return viewer->settled() && viewer->probed().has_value(); });
@@ -208,7 +239,7 @@ TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
     await("the protocol", [&] { return fs::exists("study.toml"); });
     const Protocol protocol = readProtocol("study.toml");
     ASSERT_EQ(protocol.conditions.size(), 1U);
-    EXPECT_EQ(protocol.views.front().builtin, "figures");
+    EXPECT_EQ(fs::path(protocol.views.front().file).filename(), "second.gltf");
 
     // The test mode, for as short as it goes.
     drag("Seconds of each", 0.2, 0);
@@ -226,12 +257,12 @@ TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
     EXPECT_TRUE(viewer->state().help);
     tap(gl::Key::escape);
     EXPECT_FALSE(viewer->state().help);
-    writeFile("broken.gltf", "{");
+    writeFile("second/broken.gltf", "{");
     click("scene");
     click("Open a file…");
     click("file broken.gltf");
     await("a message", [&] { return viewer->message().find("broken.gltf") != std::string::npos; });
-    await("the scene of before", [&] { return viewer->state().scene.builtin == "figures"; });
+    EXPECT_TRUE(viewer->state().scene.file.ends_with("second.gltf"));
 
     EXPECT_LT(viewer->longestFrame(), 0.5); // of which 0.1 is promised to an idle machine
 }

@@ -223,6 +223,33 @@ TEST_F(Packed, DracoIsTheSameMesh) {
     }
 }
 
+// Whole numbers lie in the stream as in a plain file, and the accessor says what they mean.
+TEST_F(Packed, BytesInADracoStreamAreShares) {
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(1);
+    const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    const std::uint8_t colours[3][4] = {{255, 0, 51, 255}, {102, 0, 0, 255}, {0, 0, 0, 0}};
+    const int at = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32),
+              as = builder.AddAttribute(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8);
+    builder.SetAttributeValuesForFace(at, draco::FaceIndex(0), corners[0], corners[1], corners[2]);
+    builder.SetAttributeValuesForFace(as, draco::FaceIndex(0), colours[0], colours[1], colours[2]);
+    draco::EncoderBuffer buffer;
+    ASSERT_TRUE(draco::Encoder().EncodeMeshToBuffer(*builder.Finalize(), &buffer).ok());
+    GltfBuilder gltf = dracoSheet(sheet_, {buffer.data(), buffer.data() + buffer.size()});
+    gltf.primitive()["attributes"] = {{"POSITION", 0}, {"COLOR_0", 3}};
+    gltf.primitive()["extensions"]["KHR_draco_mesh_compression"]["attributes"] = {{"POSITION", 0},
+                                                                                  {"COLOR_0", 1}};
+    gltf.root["accessors"][3].update(json{{"componentType", 5121}, {"normalized", true}});
+    const Scene scene = load(gltf);
+    ASSERT_EQ(scene.vertices.size(), 3U);
+    for (const Vertex& vertex : scene.vertices) {
+        const glm::vec4 expected = vertex.position.x > 0   ? glm::vec4(0.4, 0, 0, 1)
+                                   : vertex.position.y > 0 ? glm::vec4(0)
+                                                           : glm::vec4(1, 0, 0.2, 1);
+        EXPECT_LT(glm::distance(vertex.colour, expected), 1e-6F);
+    }
+}
+
 TEST_F(Packed, ADracoStreamThatLiesIsAnError) {
     const std::vector<char> stream = dracoOf(sheet_, draco::MESH_SEQUENTIAL_ENCODING, 0);
     // Header of 11 bytes, then the number of triangles as a varint: 128 is 0x80 0x01.

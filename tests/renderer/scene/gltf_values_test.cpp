@@ -159,6 +159,28 @@ TEST_F(GltfValues, SkinsStandInTheirRestPose) {
     EXPECT_THAT(error(), HasSubstr("expected JOINTS_1 and WEIGHTS_1 of a skinned mesh"));
 }
 
+// Each is scaled, turned and moved within the node, which is moved itself.
+TEST_F(GltfValues, InstancesStandWhereEachIs) {
+    gltf_.root["nodes"][0]["translation"] = {0, 0, 5};
+    auto& instancing = gltf_.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"];
+    instancing["attributes"] = {
+        {"TRANSLATION", gltf_.floats({0, 0, 0, 10, 0, 0}, 3)},
+        {"ROTATION",
+         gltf_.accessor(std::vector<std::int8_t>{0, 0, 0, 127, 0, 0, 127, 127}, 4, 5120, true)},
+        {"SCALE", gltf_.floats({1, 1, 1, 2, 3, 1}, 3)}};
+    gltf_.root["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+    const Scene scene = load();
+    EXPECT_THAT(scene.warnings, testing::IsEmpty());
+    ASSERT_EQ(scene.vertices.size(), 6U);
+    expectNear(scene.vertices[1].position, {1, 0, 5});
+    expectNear(scene.vertices[4].position, {10, 2, 5}); // (1, 0, 0) doubled, a quarter about z
+    expectNear(scene.vertices[5].position, {7, 0, 5});
+    instancing["attributes"]["SCALE"] = gltf_.floats({1, 1, 1}, 3);
+    EXPECT_THAT(error(), HasSubstr("nodes[0].extensions.EXT_mesh_gpu_instancing.attributes.SCALE: "
+                                   "expected at most 1000000 elements of 3, as many as the other "
+                                   "attributes have, found 1 of 3"));
+}
+
 TEST_F(GltfValues, LightsStandWhereTheirNodesDo) {
     gltf_.root["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(
         R"([{"type":"point","color":[1,0.5,0],"intensity":8,"range":3},{"type":"directional"},)"
