@@ -56,13 +56,13 @@ double millisecondsSince(std::chrono::steady_clock::time_point start) {
 
 } // namespace
 
-Painter::Painter(gl::Timing timing) : state_(std::make_unique<State>(timing)) {}
+Painter::Painter(gl::Timing timing) : state_(std::make_unique<PainterState>(timing)) {}
 Painter::~Painter() = default;
 
 void Painter::open(SceneId id, const Scene& scene) {
     Subject subject(scene);
     gl::throwMessages(); // no memory, say
-    State& s = *state_;
+    PainterState& s = *state_;
     s.buffers.reset();
     s.subject.emplace(std::move(subject));
     s.buffers.emplace(*s.subject);
@@ -86,14 +86,14 @@ void Painter::forget() {
     state_->pictures.clear();
 }
 
-const Truth* Painter::State::truthOf(const std::optional<TruthKind>& kind) const {
+const Truth* PainterState::truthOf(const std::optional<TruthKind>& kind) const {
     for (const Reference& reference : references)
         if (kind == reference.truth.kind)
             return &reference.truth;
     return nullptr;
 }
 
-const gl::Texture& Painter::State::referenceTexture() {
+const gl::Texture& PainterState::referenceTexture() {
     const auto found =
         std::find_if(references.begin(), references.end(),
                      [&](const Reference& each) { return each.truth.kind == referenceKind(); });
@@ -103,7 +103,7 @@ const gl::Texture& Painter::State::referenceTexture() {
 }
 
 // What qualities depend on, but for how many rays there are: those of fewer stay for so long.
-std::string Painter::State::judged() const {
+std::string PainterState::judged() const {
     std::string text = fmt::format("{} {} {} {}", look, buffers->lightVersion(),
                                    static_cast<int>(wanted.integral), wanted.view.radius);
     for (const auto& [name, value] : numbersOf(wanted.display))
@@ -113,14 +113,14 @@ std::string Painter::State::judged() const {
     return text;
 }
 
-bool Painter::State::waits(const PanePasses::Pane& pane) const {
+bool PainterState::waits(const PanePasses::Pane& pane) const {
     const auto traced = kindOf(pane.settings);
     return (traced && !truthOf(traced)) || (wanted.show == Show::error && !reference()) ||
            (wanted.show == Show::jod && !isJudged());
 }
 
 // The time of each pass comes with the pieces of the clock, later.
-void Painter::State::runTechniques() {
+void PainterState::runTechniques() {
     for (const PanePasses::Pane* pane : panes)
         buffers->drawPadded(wanted, pane->settings);
     clock.mark();
@@ -131,8 +131,8 @@ void Painter::State::runTechniques() {
     bindFrame(buffers->sight().block);
 }
 
-const gl::Texture& Painter::State::composited(const gl::Texture& visibility, bool sendsLight,
-                                              int guard) {
+const gl::Texture& PainterState::composited(const gl::Texture& visibility, bool sendsLight,
+                                            int guard) {
     const std::array size{wanted.width, wanted.height};
     if (!composite || compositeSize != size) {
         composite.emplace(wanted.view, wanted.level, wanted.width, wanted.height, false);
@@ -146,7 +146,7 @@ const gl::Texture& Painter::State::composited(const gl::Texture& visibility, boo
 }
 
 // What a pane's picture is of, in full.
-std::string Painter::State::sourceOf(std::size_t index) const {
+std::string PainterState::sourceOf(std::size_t index) const {
     const PanePasses::Pane& pane = *panes[index];
     const std::uint64_t gbuffer = buffers->sight().version;
     const std::string size = fmt::format("{} {} {}", scene, wanted.width, wanted.height);
@@ -174,7 +174,7 @@ std::string Painter::State::sourceOf(std::size_t index) const {
     return fmt::format("{} lit {} {} {}", size, pane.version, buffers->lightVersion(), look);
 }
 
-void Painter::State::show(std::size_t index, const SharedPicture& into) {
+void PainterState::show(std::size_t index, const SharedPicture& into) {
     const PanePasses::Pane& pane = *panes[index];
     const GBuffer& gbuffer = buffers->sight().gbuffer;
     const ShowPass::Visibility visibility{*pane.visibility, pane.guard};
@@ -202,7 +202,7 @@ void Painter::State::show(std::size_t index, const SharedPicture& into) {
     showPass.lit(composited(*pane.visibility, pane.passes.sendsLight(), pane.guard), into);
 }
 
-std::shared_ptr<const SharedPicture> Painter::State::kept(const std::string& from) {
+std::shared_ptr<const SharedPicture> PainterState::kept(const std::string& from) {
     for (const std::vector<Picture>* known : {&pictures, &older})
         for (const Picture& each : *known)
             if (each.from == from)
@@ -210,7 +210,7 @@ std::shared_ptr<const SharedPicture> Painter::State::kept(const std::string& fro
     return nullptr;
 }
 
-std::shared_ptr<const SharedPicture> Painter::State::shown(std::size_t index) {
+std::shared_ptr<const SharedPicture> PainterState::shown(std::size_t index) {
     const std::string from = sourceOf(index);
     std::shared_ptr<const SharedPicture> result = kept(from);
     if (!result) {
@@ -222,7 +222,7 @@ std::shared_ptr<const SharedPicture> Painter::State::shown(std::size_t index) {
     return result;
 }
 
-std::shared_ptr<const SharedPicture> Painter::State::difference(const Drawn& drawn) {
+std::shared_ptr<const SharedPicture> PainterState::difference(const Drawn& drawn) {
     const bool ofLit = wanted.show == Show::lit;
     const std::string from = fmt::format("difference {} of {} and {}", wanted.errorScale,
                                          ofLit ? sourceOf(0) : fmt::to_string(panes[0]->version),
@@ -243,7 +243,7 @@ std::shared_ptr<const SharedPicture> Painter::State::difference(const Drawn& dra
     return result;
 }
 
-Drawn Painter::State::summary() const {
+Drawn PainterState::summary() const {
     Drawn drawn;
     drawn.wanted = wanted;
     drawn.draft = !buffers->sight().sharp;
@@ -269,7 +269,7 @@ Drawn Painter::State::summary() const {
 
 Drawn Painter::draw(const Wanted& wanted, const Progress& progress, bool draft) {
     const auto start = std::chrono::steady_clock::now();
-    State& s = *state_;
+    PainterState& s = *state_;
     check(wanted, s.scene);
     // What can fail comes first.
     const bool lit = needsLight(wanted);
@@ -318,7 +318,7 @@ Drawn Painter::draw(const Wanted& wanted, const Progress& progress, bool draft) 
 }
 
 std::vector<TruthKind> Painter::truthsWanted() const {
-    const State& s = *state_;
+    const PainterState& s = *state_;
     std::vector<TruthKind> kinds;
     if (s.panes.empty())
         return kinds;
@@ -332,10 +332,10 @@ std::vector<TruthKind> Painter::truthsWanted() const {
 }
 
 void Painter::take(std::uint64_t view, std::vector<Truth> truths) {
-    State& s = *state_;
+    PainterState& s = *state_;
     if (view != s.view)
         return;
-    std::vector<State::Reference> references;
+    std::vector<PainterState::Reference> references;
     for (Truth& truth : truths) {
         const auto known =
             std::find_if(s.references.begin(), s.references.end(), [&](const auto& each) {
@@ -350,7 +350,7 @@ void Painter::take(std::uint64_t view, std::vector<Truth> truths) {
 }
 
 void Painter::take(Judgement judgement) {
-    State& s = *state_;
+    PainterState& s = *state_;
     s.jodMaps.clear();
     for (const Image& map : judgement.jodMaps)
         s.jodMaps.push_back(visibilityTexture(map));

@@ -2,49 +2,13 @@
 
 #include "gl/timer.h"
 #include "renderer/probe.h"
-#include "viewer/picture.h"
+#include "viewer/truth.h"
 
 #include <memory>
-#include <span>
 
 namespace obscura {
 
-// What a reference is the truth of, besides its view.
-struct TruthKind {
-    Integral integral = Integral::cosine;
-    double radius = 0.5; // metres
-
-    bool operator==(const TruthKind&) const = default;
-};
-
-// A reference of the view that the painter drew last, as far as it has been traced.
-struct Truth {
-    TruthKind kind;
-    std::shared_ptr<const Image> visibility; // 1 channel, rows from the top
-    int rays = 0;                            // a pixel
-};
-
-// What a pane is judged by: CPU copies, for another thread to compare.
-struct Comparison {
-    std::string of; // names what is compared, but for the reference's rays
-    struct Pane {
-        Image visibility;
-        Image8 lit;
-    };
-    std::vector<Pane> panes;
-    Image visibility; // of the reference
-    Image8 lit;       // with it
-    std::vector<bool> shown;
-    Display display;
-    int rays = 0;
-};
-
-// What came of it, by pane.
-struct Judgement {
-    std::string of; // the comparison's
-    std::vector<Quality> qualities;
-    std::vector<Image> jodMaps; // 1 - JOD / 10 at each pixel
-};
+struct PainterState;
 
 // Draws what is wanted, in the current context, with the code that makes stimuli: one G-buffer for
 // all panes, one set of light buffers, and the passes of each technique. Whatever a new wish leaves
@@ -64,14 +28,9 @@ class Painter {
     SceneId scene() const;          // 0: none yet
     const Subject& subject() const; // of the scene that was opened; there must be one
 
-    // What draw() does that may take long; called before each.
-    struct Step {
-        enum class Kind { compiling, lighting } kind;
-        std::string what;           // "GTAO": the technique's title
-        int done = 0, all = 1;      // of the wish's steps of this kind
-        double expectedSeconds = 0; // as the same took before; 0 where it never did
-    };
-    using Progress = std::function<void(const Step&)>;
+    // Called before what draw() does that may take long. What it throws ends the drawing.
+    using Step = PaintStep;
+    using Progress = PaintProgress;
 
     // Draws and waits until the GPU has finished. `wanted.scene` must be scene(), and there must be
     // one to four panes and at least one pixel. A `draft`, where the view has to be drawn anew, has
@@ -107,8 +66,7 @@ class Painter {
     std::optional<Probed> probe(int x, int y) const;
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::unique_ptr<PainterState> state_;
 };
 
 } // namespace obscura

@@ -1,5 +1,6 @@
 #include "gl/context.h"
 #include "renderer/reference/traced.h"
+#include "viewer/painter.h"
 #include "viewer/painter_state.h"
 
 #include <algorithm>
@@ -7,7 +8,7 @@
 namespace obscura {
 
 Surfaces Painter::surfaces() const {
-    const State& s = *state_;
+    const PainterState& s = *state_;
     return surfacesOf(s.subject->scene(), s.subject->pass(), s.buffers->sight().frame,
                       s.wanted.normals);
 }
@@ -30,7 +31,7 @@ Image Painter::visibility(int pane) const {
 }
 
 std::optional<Comparison> Painter::comparison() {
-    State& s = *state_;
+    PainterState& s = *state_;
     const Truth* truth = s.panes.empty() || !s.needsReference() ? nullptr : s.reference();
     if (!truth)
         return std::nullopt;
@@ -89,7 +90,7 @@ Probed::Pane paneAt(const PanePasses::Pane& pane, int x, int y) {
 } // namespace
 
 std::optional<Probed> Painter::probe(int x, int y) const {
-    State& s = *state_;
+    PainterState& s = *state_;
     if (s.panes.empty() || x < 0 || y < 0 || x >= s.wanted.width || y >= s.wanted.height)
         return std::nullopt;
     Probed result;

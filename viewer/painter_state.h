@@ -12,8 +12,8 @@
 namespace obscura {
 
 // What the painter keeps, for its own files alone: painter.cpp draws, painter_read.cpp reads back.
-struct Painter::State {
-    explicit State(gl::Timing timing) : clock(timing) {}
+struct PainterState {
+    explicit PainterState(gl::Timing timing) : clock(timing) {}
 
     // A truth, and its texture once it is shown.
     struct Reference {

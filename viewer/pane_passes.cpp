@@ -68,8 +68,7 @@ void PanePasses::adapt(Pane& pane, const Settings& settings, const Wanted& wante
     pane.from.clear();
 }
 
-std::vector<PanePasses::Pane*> PanePasses::take(const Wanted& wanted,
-                                                const Painter::Progress& before) {
+std::vector<PanePasses::Pane*> PanePasses::take(const Wanted& wanted, const PaintProgress& before) {
     ++turn_;
     std::vector<Pane*> result(wanted.panes.size());
     int missing = 0;
@@ -86,7 +85,7 @@ std::vector<PanePasses::Pane*> PanePasses::take(const Wanted& wanted,
         const Settings& settings = wanted.panes[i];
         const Technique& technique = settings.technique();
         if (before && !technique.passes.empty())
-            before({Painter::Step::Kind::compiling, std::string(technique.title), done++, missing,
+            before({PaintStep::Kind::compiling, std::string(technique.title), done++, missing,
                     seconds_[std::string(technique.id)]});
         result[i] = &compiled(settings, wanted);
         result[i]->wanted = turn_;

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "viewer/painter.h"
+#include "gl/timer.h"
+#include "viewer/truth.h"
 #include "viewer/view_buffers.h"
 
 #include <list>
@@ -56,7 +57,7 @@ class PanePasses {
 
     // One for each pane that is wanted, compiled where it must be, which `before` is told. They
     // stay where they are until the next call. An Error loses nothing.
-    std::vector<Pane*> take(const Wanted& wanted, const Painter::Progress& before);
+    std::vector<Pane*> take(const Wanted& wanted, const PaintProgress& before);
 
     // Runs a pane whose result is not of these buffers. One that is ray-traced takes what was
     // traced, and without that is open. False where there was nothing to do.

@@ -1,7 +1,8 @@
 #pragma once
 
+#include "renderer/frame/surfaces.h"
 #include "renderer/reference/reference.h"
-#include "viewer/painter.h"
+#include "viewer/truth.h"
 
 #include <functional>
 #include <memory>
