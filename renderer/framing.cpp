@@ -2,35 +2,31 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/percentile.h"
 #include "base/random.h"
 #include "renderer/extent.h"
 #include "renderer/found_cameras.h"
-#include "renderer/reference/sight.h"
+#include "renderer/glimpse.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
-#include <tuple>
 
 namespace obscura {
 
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr int pictureHeight = 27; // of the small pictures that are looked at
 constexpr double indoorFov = 60, outdoorFov = 40;
 constexpr double margin = 0.88;        // of the picture, for the whole of an object
 constexpr int places = 384, stood = 8; // where somebody could stand, and where he looks around
 constexpr int points = 1024;           // of surfaces, to tell how much is seen
 constexpr double closed = 0.75;        // of directions that meet something, in a room
 constexpr double eyeHeight = 1.6;      // metres
-constexpr double elbowRoom = 0.05;     // of the scene\'s size, where one would rather stand
+constexpr double elbowRoom = 0.05;     // of the scene's size, where one would rather stand
 constexpr double roomOfThings = 12;    // sizes of what stands in it, to be more than a backdrop
 
 glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
@@ -40,65 +36,13 @@ glm::dvec3 middleOf(const Bounds& bounds) {
     return 0.5 * (glm::dvec3(bounds.low) + glm::dvec3(bounds.high));
 }
 
-// What a small picture says about its camera.
-struct Glimpse {
-    double shown = 0;   // share of the pixels that show a surface
-    double variety = 0; // bits: entropy of the kinds of surface, by area in the picture
-    double near = 0, middle = 0, first = 0; // depth: 20th quantile, median, the nearest
-};
-
-// How many kinds of surface there are to tell apart: by material, the way they face, and distance.
-// After the entropy of viewpoints (Vazquez, Feixas, Sbert and Heidrich 2001, "Viewpoint selection
-// using viewpoint entropy"), which counts faces and so depends on how finely a scene is cut.
-Glimpse glimpse(const Sight& sight, const Camera& camera, double aspect, double size) {
-    const int width = std::max(static_cast<int>(std::lround(pictureHeight * aspect)), 1);
-    const Frame frame = makeFrame(camera, width, pictureHeight, sight.bounds(), 1);
-    const glm::dvec3 eye = vec(camera.position);
-    std::map<std::tuple<int, int, int>, double> kinds;
-    std::vector<double> depths;
-    for (int y = 0; y < pictureHeight; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::vec4 ahead(
-                (static_cast<float>(x) + 0.5f) * frame.size.z * frame.viewFromUv.x +
-                    frame.viewFromUv.z,
-                (static_cast<float>(y) + 0.5f) * frame.size.w * frame.viewFromUv.y +
-                    frame.viewFromUv.w,
-                -1, 0);
-            const float slant = glm::length(glm::vec3(ahead));
-            const auto seen =
-                sight.along(glm::vec3(eye), glm::vec3(frame.worldFromView * ahead) / slant);
-            if (!seen) {
-                ++kinds[{-1, 0, 0}];
-                continue;
-            }
-            const auto depth = static_cast<double>(seen->distance / slant);
-            depths.push_back(depth);
-            const glm::vec3 n = glm::abs(seen->faceNormal);
-            const int axis = n.x > n.y && n.x > n.z ? 0 : n.y > n.z ? 1 : 2;
-            ++kinds[{sight.materialAt(seen->firstIndex),
-                     seen->faceNormal[axis] < 0 ? axis : axis + 3,
-                     static_cast<int>(std::floor(2 * std::log2(depth / size + 1e-9)))}];
-        }
-    Glimpse result;
-    const auto all = static_cast<double>(width * pictureHeight);
-    for (const auto& [kind, count] : kinds)
-        result.variety -= count / all * std::log2(count / all);
-    result.shown = static_cast<double>(depths.size()) / all;
-    if (depths.empty())
-        return result;
-    const auto shares = percentiles(depths, std::array{0.0, 0.05, 0.5});
-    result.first = shares[0];
-    result.near = shares[1];
-    result.middle = shares[2];
-    return result;
-}
-
 // A camera, and how good it is.
 struct Look {
     Camera camera;
     double score = -1;
-    double seen = 0; // share of the scene's surfaces that can be seen from there
-    double eye = 0;  // metres above the floor; 0 where there is none
+    double seen = 0;                    // share of the scene's surfaces that can be seen from there
+    double eye = 0;                     // metres above the floor; 0 where there is none
+    double narrowest = 0, farthest = 0; // as Framing has them
 };
 
 // What matters of a surface is half its area, half its detail: by area alone, bare walls behind the
@@ -140,7 +84,7 @@ class Scout {
     std::optional<Stand> standAt(const glm::vec3& point) const;
     std::vector<Stand> stands() const;
     Look lookFrom(const Stand& stand) const;
-    Camera fitted(double turn, double rise) const;
+    Look fitted(double turn, double rise) const;
     double riseOf() const;
 
     Sight sight_;
@@ -164,43 +108,6 @@ double Scout::seenFrom(const glm::vec3& eye, const std::vector<SurfacePoint>& of
         count += !met || met->distance > 0.999f * distance;
     }
     return count / static_cast<double>(of.size());
-}
-
-// `count` directions all around, evenly (Gonzalez 2010, "Measurement of areas on a sphere using
-// Fibonacci and latitude-longitude lattices").
-std::vector<glm::vec3> allAround(int count) {
-    std::vector<glm::vec3> result;
-    for (int i = 0; i < count; ++i) {
-        const double y = 1 - (2.0 * i + 1) / count, turn = 2 * pi * i / std::numbers::phi,
-                     r = std::sqrt(1 - y * y);
-        result.emplace_back(r * std::cos(turn), y, r * std::sin(turn));
-    }
-    return result;
-}
-
-// What there is around a place, in directions evenly spread.
-struct Around {
-    double closed = 0;  // share of directions, but for those far down, that meet something drawn
-    double backs = 0;   // share of all that meet a back first: inside of something solid, or of a
-                        // shell that is to be seen from outside, it is most
-    double nearest = 0; // metres
-};
-
-Around around(const Sight& sight, const glm::vec3& eye) {
-    static const std::vector<glm::vec3> directions = allAround(96);
-    double met = 0, asked = 0, backs = 0, nearest = std::numeric_limits<double>::infinity();
-    for (const glm::vec3& direction : directions) {
-        if (const auto solid = sight.along(eye, direction, true))
-            backs += !solid->front;
-        const auto seen = sight.along(eye, direction);
-        if (seen)
-            nearest = std::min(nearest, static_cast<double>(seen->distance));
-        if (direction.y > -0.3f) {
-            ++asked;
-            met += seen.has_value();
-        }
-    }
-    return {met / asked, backs / static_cast<double>(directions.size()), nearest};
 }
 
 bool isRoom(const Around& around, double size) {
@@ -304,7 +211,7 @@ double Scout::riseOf() const {
 }
 
 // The nearest camera from that side that has all of the subject in its picture, with a margin.
-Camera Scout::fitted(double turn, double rise) const {
+Look Scout::fitted(double turn, double rise) const {
     const glm::dvec3 back(std::sin(turn) * std::cos(rise), std::sin(rise),
                           std::cos(turn) * std::cos(rise)),
         right = glm::normalize(glm::cross(glm::dvec3(0, 1, 0), back)), up = glm::cross(back, right),
@@ -312,27 +219,38 @@ Camera Scout::fitted(double turn, double rise) const {
     const double tanY = margin * std::tan(outdoorFov / 2 * pi / 180), tanX = tanY * aspect_;
     // A point (x, y, z) is in the picture of a camera at (cx, cy, cz), in these axes, if
     // |x - cx| < tanX (cz - z), and the same with y: each border is the farthest of planes.
-    double left = 1e300, rightmost = -1e300, low = 1e300, high = -1e300, nearest = -1e300;
-    for (const std::uint32_t first : extent_.subjectTriangles)
-        for (std::uint32_t i = first; i < first + 3; ++i) {
-            const glm::dvec3 from =
-                glm::dvec3(sight_.scene().vertices[sight_.scene().indices[i]].position) - middle;
-            const double x = glm::dot(from, right), y = glm::dot(from, up),
-                         z = glm::dot(from, back);
-            left = std::min(left, x - tanX * z);
-            rightmost = std::max(rightmost, x + tanX * z);
-            low = std::min(low, y - tanY * z);
-            high = std::max(high, y + tanY * z);
-            nearest = std::max(nearest, z);
-        }
+    double left = 1e300, rightmost = -1e300, low = 1e300, high = -1e300, nearest = -1e300,
+           farthest = 1e300;
+    const auto forEachCorner = [&](const auto& use) {
+        for (const std::uint32_t first : extent_.subjectTriangles)
+            for (std::uint32_t i = first; i < first + 3; ++i) {
+                const glm::dvec3 from =
+                    glm::dvec3(sight_.scene().vertices[sight_.scene().indices[i]].position) -
+                    middle;
+                use(glm::dot(from, right), glm::dot(from, up), glm::dot(from, back));
+            }
+    };
+    forEachCorner([&](double x, double y, double z) {
+        left = std::min(left, x - tanX * z);
+        rightmost = std::max(rightmost, x + tanX * z);
+        low = std::min(low, y - tanY * z);
+        high = std::max(high, y + tanY * z);
+        nearest = std::max(nearest, z);
+        farthest = std::min(farthest, z);
+    });
     const double away = std::max({(rightmost - left) / (2 * tanX), (high - low) / (2 * tanY),
                                   nearest + 0.02 * diagonal(extent_.subject)});
-    Camera camera;
-    camera.fovDegrees = outdoorFov;
-    const glm::dvec3 axis = middle + right * ((left + rightmost) / 2) + up * ((low + high) / 2);
-    camera.position = arrayOf(axis + back * away);
-    camera.target = arrayOf(axis);
-    return camera;
+    Look look;
+    look.farthest = away - farthest;
+    const double across = (left + rightmost) / 2;
+    forEachCorner([&](double x, double, double z) {
+        look.narrowest = std::max(look.narrowest, std::abs(x - across) / (tanY * (away - z)));
+    });
+    look.camera.fovDegrees = outdoorFov;
+    const glm::dvec3 axis = middle + right * across + up * ((low + high) / 2);
+    look.camera.position = arrayOf(axis + back * away);
+    look.camera.target = arrayOf(axis);
+    return look;
 }
 
 Look Scout::outdoors() const {
@@ -341,7 +259,7 @@ Look Scout::outdoors() const {
     std::vector<Look> looks(turns.size());
     forEachInParallel(turns.size(), [&](std::size_t i) {
         const double turn = turns[i] * pi / 180;
-        looks[i].camera = fitted(turn, riseOf());
+        looks[i] = fitted(turn, riseOf());
         const glm::vec3 eye(vec(looks[i].camera.position));
         looks[i].seen = seenFrom(eye, whole_);
         const double seen = seenFrom(eye, subject_);
@@ -422,6 +340,8 @@ Framing framing(const Scene& scene, const RayTracer& tracer, std::uint64_t seed,
                       "such as a floor, may reach beyond.";
     const double size = diagonal(result.inside ? extent.whole : extent.subject);
     result.camera = chosen.camera;
+    result.narrowest = chosen.narrowest;
+    result.farthest = chosen.farthest;
     const Glimpse at = glimpse(scout.sight(), result.camera, aspect, size);
     if (at.shown <= 0)
         throw Error("expected surfaces that can be seen, found none from any side; where the "
@@ -442,6 +362,18 @@ Framing framing(const Scene& scene, const RayTracer& tracer, std::uint64_t seed,
                                   : fmt::format("a thousandth of its size, {:.3g} m", size),
                               result.radius, radius.why);
     return result;
+}
+
+Camera fitted(const Framing& framing, double aspect) {
+    Camera camera = framing.camera;
+    if (!(framing.farthest > 0) || !(aspect < framing.narrowest))
+        return camera;
+    // What is d away may be d tan(half the angle) to the side: less by the ratio of the shapes,
+    // which a step back by d times (ratio - 1) makes up for; most of it for the farthest.
+    const double step = framing.farthest * (framing.narrowest / aspect - 1);
+    camera.position = arrayOf(vec(camera.position) -
+                              step * glm::normalize(vec(camera.target) - vec(camera.position)));
+    return camera;
 }
 
 } // namespace obscura

@@ -31,6 +31,9 @@ struct Framing {
     double radius = 0; // of occlusion, metres (suggestedRadius)
     bool inside = false;
     std::string why; // all of it in words: whole sentences
+    // What the whole of an object needs in a picture of another shape: the narrowest that it is all
+    // in, and how far from the camera its farthest point is, metres; 0 where the camera stays.
+    double narrowest = 0, farthest = 0;
 };
 
 // The same scene, seed and aspect (width / height of the picture) give the same view. Needs no
@@ -38,5 +41,9 @@ struct Framing {
 // to look at.
 Framing framing(const Scene& scene, const RayTracer& tracer, std::uint64_t seed,
                 double aspect = 16.0 / 9);
+
+// The same view for a picture of another shape: where it is narrower, the camera steps back until
+// all of an object is in it.
+Camera fitted(const Framing& framing, double aspect);
 
 } // namespace obscura

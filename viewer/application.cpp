@@ -1,6 +1,7 @@
 #include "viewer/application.h"
 
 #include "viewer/navigation.h"
+#include "viewer/presets.h"
 #include "viewer/seen.h"
 
 #include <fmt/format.h>
@@ -76,6 +77,22 @@ void Application::name(const SceneChoice& choice) {
     window_.setTitle("Obscura – " + nameOf(choice));
 }
 
+// The found view, for pictures of this shape.
+void Application::frameScene() {
+    const auto [width, height] = pictureSize(state_.layout, area_, 0, 1);
+    state_.view.camera = fitted(opened_->framing, static_cast<double>(width) / height);
+    state_.views.front().camera = state_.view.camera;
+    state_.viewAt = 0;
+}
+
+// Views that cannot be read are no reason not to show the scene.
+std::vector<View> Application::storedOf(const View& view) try {
+    return storedViews(viewsFolder(), view);
+} catch (const Error& problem) {
+    say(problem.what(), true);
+    return {};
+}
+
 // What the command line says of the view counts for the scene that it names, and only once.
 void Application::takeNews() {
     status_ = worker_->status();
@@ -91,9 +108,10 @@ void Application::takeNews() {
             opened->choice.file.empty() ? "" : inScenesFolder(opened->choice.file, line_.scenes);
         state_.view.builtin = opened->choice.builtin;
         state_.view.ground = opened->choice.ground;
-        adopt(state_, *opened);
+        adopt(state_, *opened, storedOf(state_.view));
         for (const View& view : line_.views)
             state_.views.push_back(view);
+        frameScene();
         if (line_.camera)
             state_.view.camera = *line_.camera;
         if (line_.radius)

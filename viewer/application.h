@@ -41,7 +41,9 @@ class Application {
     void frame();
     void open(const SceneChoice& choice);
     void name(const SceneChoice& choice);
+    std::vector<View> storedOf(const View& view);
     void takeNews();
+    void frameScene();
     void takeKeys();
     void press(const KeyPress& key);
     void pressControl(const KeyPress& key);
@@ -54,6 +56,8 @@ class Application {
     void askForScreenshot();
     void saveScreenshot();
     void addStudy(const Requests& requests);
+    void storePresentView();
+    void forgetChosenView();
     void startTest();
     void say(const std::string& text, bool error = false);
     Wanted wanted() const;

@@ -1,5 +1,6 @@
 // What the user asks for that is more than a value: scenes, studies, screenshots, tests.
 #include "viewer/application.h"
+#include "viewer/presets.h"
 #include "viewer/screenshot.h"
 #include "viewer/technique_words.h"
 #include "viewer/to_study.h"
@@ -57,11 +58,15 @@ void Application::carryOut(const Requests& requests) try {
     if (requests.browse)
         browser_.open = true;
     if (requests.frame && opened_)
-        state_.view.camera = opened_->camera;
+        frameScene();
     if (requests.copy) {
         window_.copyText(*requests.copy);
         say("Copied: " + *requests.copy);
     }
+    if (requests.storeView && opened_)
+        storePresentView();
+    if (requests.forgetView)
+        forgetChosenView();
     if (requests.screenshot)
         askForScreenshot();
     addStudy(requests);
@@ -71,6 +76,19 @@ void Application::carryOut(const Requests& requests) try {
         test_->stop();
 } catch (const Error& problem) {
     say(problem.what(), true);
+}
+
+void Application::storePresentView() {
+    const std::string stored = storeView(state_);
+    storeView(viewsFolder(), state_.views.back());
+    say("Stored as " + stored + ". C goes through the views.");
+}
+
+void Application::forgetChosenView() {
+    const std::string forgotten = state_.views[static_cast<std::size_t>(state_.viewAt)].name;
+    forgetView(viewsFolder(), state_.view, forgotten);
+    state_.views.erase(state_.views.begin() + state_.viewAt);
+    showView(state_, 0);
 }
 
 void Application::addStudy(const Requests& requests) {

@@ -55,6 +55,8 @@ void Application::escape() {
         browser_.open = false;
     else if (window_.cursorLocked())
         window_.lockCursor(false);
+    else if (status_.loading && opened_)
+        worker_->abortOpening();
     else
         message_.text.clear();
 }
@@ -85,7 +87,7 @@ void Application::press(const KeyPress& key) {
     else if (key.key == letter('C'))
         cycleViews(state_, key.shift ? -1 : 1);
     else if (key.key == letter('P'))
-        say("Stored as " + storeView(state_) + ". C goes through the views.");
+        requests_.storeView = true;
     else if (key.key == letter('F'))
         requests_.frame = true;
     else if (key.key == letter('L'))

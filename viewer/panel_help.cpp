@@ -42,9 +42,9 @@ const std::array<std::vector<Group>, 2>& columns() {
             {"0", "all of the picture again"}}},
           {"Views and window",
            {{"C, Shift + C", "next view, the one before"},
-            {"P", "store the view"},
+            {"P", "store the view, for good"},
             {"F", "frame the scene"},
-            {"Ctrl + O", "open a file"},
+            {"Ctrl + O", "open a file; Esc gives up"},
             {"F12", "screenshot"},
             {"Tab", "panels on and off"},
             {"F1 or H", "this list"}}}}}};

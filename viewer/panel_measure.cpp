@@ -168,8 +168,9 @@ void reference(Moment& moment) {
     }
     choice(ui, "Display", names, state.display, tips);
     slider(ui,
-           {"Scale of errors", scaleBetween(0.01, 1), 0.25, Unit::ratio,
-            "The error, or difference, that has the last colour of the map"},
+           {"Scale of errors", errorScales(), 0.25, Unit::ratio,
+            "The error, or difference, that has the last colour of the map\nDrag over the legend "
+            "to change it"},
            state.errorScale);
     if (!moment.drawn)
         return;
@@ -221,6 +222,8 @@ void pixel(Moment& moment) {
 }
 
 } // namespace
+
+Scale errorScales() { return scaleBetween(0.005, 1); }
 
 double wholeMs(const Drawn& drawn) {
     double ms = drawn.gbufferMs + drawn.lightMs;

@@ -39,9 +39,9 @@ void drawPicture(const Moment& moment, const PlacedPane& pane) {
                        magnification.factor < 2 && picture->width != std::lround(pane.place.width));
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.PushClipRect(lowOf(pane.clip), highOf(pane.clip), true);
-    list.AddImage(reinterpret_cast<ImTextureID>( // ImGui carries numbers as pointers
-                      static_cast<std::uintptr_t>(texture.name())),
-                  lowOf(pane.place), highOf(pane.place),
+    // ImGui carries numbers as pointers. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    const auto id = reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(texture.name()));
+    list.AddImage(id, lowOf(pane.place), highOf(pane.place),
                   {static_cast<float>(part.x), static_cast<float>(1 - part.y)},
                   {static_cast<float>(part.right()), static_cast<float>(1 - part.bottom())});
     list.PopClipRect();
@@ -98,48 +98,81 @@ void caption(Moment& moment, const PlacedPane& pane, bool right) {
                                                    static_cast<double>(height)};
 }
 
-// The colours that an error, JOD or difference has, and what they mean.
-void legend(Moment& moment, const Box& area) {
-    const State& state = moment.state;
-    const bool difference = state.layout == Layout::difference;
-    const bool error = difference || state.show == Show::error;
-    if (!error && state.show != Show::jod)
-        return;
-    Ui& ui = moment.ui;
-    constexpr int steps = 64;
-    static const auto errors = errorColours(steps), jods = jodColours(steps);
-    const auto& map = error ? errors : jods;
-    const float width = ui.px(190), bar = ui.px(8);
-    const float x = std::floor(static_cast<float>(area.x + area.width / 2) - width / 2);
-    const float y = static_cast<float>(area.bottom()) - ui.px(54);
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled({x - ui.px(14), y - ui.px(9)}, {x + width + ui.px(14), y + ui.px(43)},
-                       faded(colours::backdrop, 0.82F), ui.px(6));
-    for (int i = 0; i < steps; ++i) {
-        const auto& c = map[static_cast<std::size_t>(i)];
-        const float from = x + width * static_cast<float>(i) / steps;
-        list.AddRectFilled({from, y}, {from + width / steps + 1, y + bar},
-                           IM_COL32(c[0], c[1], c[2], 255));
+// The colours that an error, JOD or difference has, and what they mean. Dragging over it changes
+// the scale.
+class Legend {
+  public:
+    Legend(Moment& moment, bool difference)
+        : moment_(moment), ui_(moment.ui), difference_(difference),
+          error_(difference || moment.state.show == Show::error), width_(ui_.px(190)) {
+        const Box& area = moment.area;
+        x_ = std::floor(static_cast<float>(area.x + area.width / 2) - width_ / 2);
+        y_ = static_cast<float>(area.bottom()) - ui_.px(54);
     }
-    ImGui::PushFont(ui.theme.small);
-    const auto put = [&](float share, float row, const std::string& text, ImU32 colour) {
+
+    void draw() {
+        ImGui::SetCursorScreenPos({x_ - ui_.px(14), y_ - ui_.px(9)});
+        ImGui::InvisibleButton("##legend", {width_ + ui_.px(28), ui_.px(52)});
+        ui_.note("legend");
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        if (error_)
+            drag();
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            low, high, faded(colours::backdrop, ImGui::IsItemHovered() ? 0.95F : 0.82F), ui_.px(6));
+        drawMap();
+        ImGui::PushFont(ui_.theme.small);
+        const std::string scale = fmt::format("{:.2g}", moment_.state.errorScale);
+        put(0, 3, error_ ? "−" + scale : "10 JOD", colours::text);
+        put(1, 3, error_ ? "+" + scale : "7 JOD", colours::text);
+        if (error_)
+            put(0.5F, 3, "0", colours::text);
+        put(0.5F, 17,
+            !error_       ? "none seen … clearly seen"
+            : difference_ ? "A darker … B darker"
+                          : "too bright … too dark",
+            colours::muted);
+        ImGui::PopFont();
+    }
+
+  private:
+    void drag() {
+        const float moved = ImGui::GetIO().MouseDelta.x;
+        double& scale = moment_.state.errorScale;
+        if (ImGui::IsItemActive() && moved != 0)
+            scale = valueAt(errorScales(), positionOf(errorScales(), scale) +
+                                               static_cast<double>(moved / width_) / 2);
+        if (ImGui::IsItemHovered())
+            ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+        tooltip(ui_, ImGui::IsItemActive() ? "" : "Drag to change the scale");
+    }
+    void drawMap() {
+        constexpr int steps = 64;
+        static const auto errors = errorColours(steps), jods = jodColours(steps);
+        for (int i = 0; i < steps; ++i) {
+            const auto& c = (error_ ? errors : jods)[static_cast<std::size_t>(i)];
+            const float from = x_ + width_ * static_cast<float>(i) / steps;
+            ImGui::GetWindowDrawList()->AddRectFilled({from, y_},
+                                                      {from + width_ / steps + 1, y_ + ui_.px(8)},
+                                                      IM_COL32(c[0], c[1], c[2], 255));
+        }
+    }
+    void put(float share, float row, const std::string& text, ImU32 colour) {
         const float size = ImGui::CalcTextSize(text.c_str()).x;
-        list.AddText({std::floor(x + share * (width - size)), y + bar + ui.px(row)}, colour,
-                     text.c_str());
-    };
-    const std::string scale = fmt::format("{:.2g}", state.errorScale);
-    put(0, 3, error ? "−" + scale : "10 JOD", colours::text);
-    put(1, 3, error ? "+" + scale : "7 JOD", colours::text);
-    if (error)
-        put(0.5F, 3, "0", colours::text);
-    put(0.5F, 17,
-        !error       ? "none seen … clearly seen"
-        : difference ? "A darker … B darker"
-                     : "too bright … too dark",
-        colours::muted);
-    ImGui::PopFont();
-    ui.places["legend"] = {static_cast<double>(x - ui.px(14)), static_cast<double>(y - ui.px(9)),
-                           static_cast<double>(width + ui.px(28)), static_cast<double>(ui.px(52))};
+        ImGui::GetWindowDrawList()->AddText(
+            {std::floor(x_ + share * (width_ - size)), y_ + ui_.px(8) + ui_.px(row)}, colour,
+            text.c_str());
+    }
+
+    Moment& moment_;
+    Ui& ui_;
+    bool difference_, error_;
+    float width_, x_ = 0, y_ = 0;
+};
+
+void legend(Moment& moment) {
+    const bool difference = moment.state.layout == Layout::difference;
+    if (difference || moment.state.show == Show::error || moment.state.show == Show::jod)
+        Legend(moment, difference).draw();
 }
 
 void dragDivider(Moment& moment) {
@@ -254,6 +287,8 @@ Hand picturesPanel(Moment& moment) {
         centred(ui, area,
                 moment.status.loading ? "Opening " + nameOf(state.scene) : "No picture yet",
                 moment.status.loading ? moment.status.what : "Choose a scene, or drop a glTF file");
+    if (state.panels && moment.drawn)
+        legend(moment);
     if (state.layout == Layout::split && moment.drawn)
         dragDivider(moment);
     ImGui::SetCursorScreenPos(lowOf(area));
@@ -276,7 +311,6 @@ Hand picturesPanel(Moment& moment) {
         for (const PlacedPane& pane : placed)
             if (pane.pane >= 0)
                 caption(moment, pane, state.layout == Layout::split && pane.pane == 1);
-        legend(moment, area);
     }
     ImGui::End();
     ImGui::PopStyleColor();

@@ -83,12 +83,18 @@ void cameraRows(Moment& moment) {
     fact(ui, "Position", text(camera.position));
     fact(ui, "Target", text(camera.target));
     const float gap = ui.px(6);
-    const float half = (ImGui::GetContentRegionAvail().x - gap) / 2;
-    if (button(ui, "Store view", "Keeps the present view in the list  (P)", half))
-        storeView(state);
+    const float third = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+    if (button(ui, "Store", "Keeps the present view in the list, for good  (P)", third))
+        moment.requests.storeView = true;
+    ImGui::SameLine(0, gap);
+    const std::size_t own = moment.opened ? moment.opened->cameras.size() + 1 : 0;
+    ImGui::BeginDisabled(static_cast<std::size_t>(state.viewAt) < own || names.empty());
+    if (button(ui, "Forget", "Takes the chosen view out of the list, if it was stored", third))
+        moment.requests.forgetView = true;
+    ImGui::EndDisabled();
     ImGui::SameLine(0, gap);
     const Vec3 &p = camera.position, &t = camera.target;
-    if (button(ui, "Copy camera", "As obscura-render's --camera takes it", half))
+    if (button(ui, "Copy", "The camera, as obscura-render's --camera takes it", third))
         moment.requests.copy = fmt::format("--camera {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} {:.5g} "
                                            "--fov {:.4g}",
                                            p[0], p[1], p[2], t[0], t[1], t[2], camera.fovDegrees);
@@ -111,12 +117,16 @@ void lightRows(Moment& moment) {
         static_cast<int>(std::find(names.begin(), names.end(), state.level.name) - names.begin());
     if (segments(ui, "##level", levels, level)) {
         const Curve curve = state.level.curve;
+        const bool lamps = state.level.sceneLights;
         state.level = levelNamed(names[static_cast<std::size_t>(level)]);
+        state.level.sceneLights = lamps;
         if (state.level.name != "low")
             state.level.curve = curve;
     }
     if (state.level.sun)
         sunRows(ui, *state.level.sun);
+    toggle(ui, "The file's lights", state.level.sceneLights,
+           "Lamps that the scene's file brings, without shadows");
     slider(ui,
            {"Exposure", scaleBetween(-8, 8), 0, Unit::ratio,
             "In stops: light is scaled by 2 to this power before the display curve"},

@@ -36,7 +36,7 @@ struct Requests {
     std::optional<SceneChoice> open;
     bool browse = false, frame = false, screenshot = false;
     bool addPair = false, copySettings = false, writeSweep = false;
-    bool startTest = false, stopTest = false;
+    bool startTest = false, stopTest = false, storeView = false, forgetView = false;
     std::optional<std::string> copy; // to the clipboard
 };
 
@@ -98,6 +98,7 @@ struct Hand {
 };
 Hand picturesPanel(Moment& moment);
 
+Scale errorScales();                // from 0.005 to 1
 double wholeMs(const Drawn& drawn); // of a picture of which everything is drawn
 std::string letterOf(int pane);     // "A"
 

@@ -3,6 +3,7 @@
 #include "renderer/levels.h"
 #include "renderer/techniques/fetches.h"
 #include "viewer/navigation.h"
+#include "viewer/presets.h"
 #include "viewer/worker.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ Wanted wantedOf(const State& state, const Box& area, double gap) {
     return wanted;
 }
 
-void adopt(State& state, const Opened& opened) {
+void adopt(State& state, const Opened& opened, const std::vector<View>& stored) {
     const glm::vec3 extent = opened.bounds.high - opened.bounds.low;
     state.sceneId = opened.id;
     state.size = std::max(static_cast<double>(glm::length(extent)), 1e-6);
@@ -50,14 +51,7 @@ void adopt(State& state, const Opened& opened) {
     state.view.camera = opened.camera;
     state.magnification = {};
     setRadius(state, opened.radius);
-    state.views = {state.view};
-    state.views.front().name = "found";
-    for (const NamedCamera& camera : opened.cameras) {
-        View view = state.view;
-        view.name = camera.name;
-        view.camera = camera.camera;
-        state.views.push_back(view);
-    }
+    state.views = allViews(state.view, opened.cameras, stored);
     state.viewAt = 0;
 }
 

@@ -53,8 +53,8 @@ struct State {
 // What is to be drawn in panes of such a place.
 Wanted wantedOf(const State& state, const Box& area, double gap);
 
-// Takes the view, cameras and size of a scene that was opened.
-void adopt(State& state, const Opened& opened);
+// Takes the view, cameras and size of a scene that was opened, and the views stored of it.
+void adopt(State& state, const Opened& opened, const std::vector<View>& stored = {});
 
 // The technique of a pane with its defaults, and the view's radius.
 void setTechnique(State& state, int pane, const Technique& technique);

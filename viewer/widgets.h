@@ -28,6 +28,12 @@ struct Ui {
     void wake(double seconds);
 };
 
+// What rows have in common, logical pixels: the sign that resets stands at the end of the label.
+constexpr double rowLabelWidth = 152, rowResetWidth = 18, rowValueWidth = 58, rowHeight = 24;
+void rowLabel(Ui& ui, const std::string& name, ImU32 colour);
+// Where the text begins that is in the middle between two corners.
+ImVec2 centredText(const ImVec2& low, const ImVec2& high, const char* text);
+
 // A part of the text up to "##".
 std::string shown(const char* label);
 

@@ -248,7 +248,8 @@ void Worker::State::openLoaded(Painter& painter) {
                    scene->view.radius,
                    scene->view.inside,
                    scene->view.why,
-                   scene->seconds + secondsSince(start)};
+                   scene->seconds + secondsSince(start),
+                   scene->view};
     }
     if (scene->error.empty()) {
         tracer.stop();

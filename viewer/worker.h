@@ -1,5 +1,6 @@
 #pragma once
 
+#include "renderer/framing.h"
 #include "renderer/scene/scene.h"
 #include "viewer/picture.h"
 
@@ -26,6 +27,7 @@ struct Opened {
     bool inside = false;               // the camera stands in a room
     std::string why;                   // a sentence: how the view was found
     double seconds = 0;                // that opening took
+    Framing framing;                   // of which camera, radius, inside and why are, for fitted()
 };
 
 // What the worker is at, for people.

@@ -45,7 +45,7 @@ std::vector<glm::vec2> inPicture(const Scene& scene, std::size_t vertices, const
 
 // The first `vertices` of a scene are all in the picture, and fill it to a good part.
 void expectWhole(const Scene& scene, std::size_t vertices, const Camera& camera,
-                 double aspect = 16.0 / 9) {
+                 double aspect = 16.0 / 9, double share = 0.7) {
     const std::vector<glm::vec2> at = inPicture(scene, vertices, camera, aspect);
     ASSERT_EQ(at.size(), vertices) << "something is nearer than the near plane";
     glm::vec2 low(2), high(-2);
@@ -55,7 +55,7 @@ void expectWhole(const Scene& scene, std::size_t vertices, const Camera& camera,
     }
     EXPECT_GT(std::min(low.x, low.y), -1);
     EXPECT_LT(std::max(high.x, high.y), 1);
-    EXPECT_GT(std::max(high.x - low.x, high.y - low.y), 2 * 0.7);
+    EXPECT_GT(std::max(high.x - low.x, high.y - low.y), 2 * share);
 }
 
 // Looks once more with hardly any near plane, and finer.
@@ -164,6 +164,16 @@ TEST(Framing, ShowsTheWholeOfAnObject) {
 TEST(Framing, FollowsThePicturesShape) {
     for (const double aspect : {0.5, 1.0, 3.0})
         expectWhole(tower(), tower().vertices.size(), framed(tower(), 1, aspect).camera, aspect);
+}
+
+// Or narrower than it was framed for.
+TEST(Framing, StepsBackForANarrowerPicture) {
+    const Framing found = framed(tower());
+    for (const double aspect : {1.2, 0.5})
+        expectWhole(tower(), tower().vertices.size(), fitted(found, aspect), aspect, 0.5);
+    EXPECT_EQ(fitted(found, 2).position, found.camera.position);
+    const Framing room = framed(furnishedRoom());
+    EXPECT_EQ(fitted(room, 0.5).position, room.camera.position);
 }
 
 // From the front, where both sides show as much.

@@ -46,6 +46,7 @@ class ViewerTest : public testing::Test {
 
     void SetUp() override {
         ::setenv("DISPLAY", desktop.name().c_str(), 1);
+        ::setenv("XDG_CONFIG_HOME", folder.path().c_str(), 1); // where views are stored
         fs::current_path(folder.path());
         writeScene("first", 1);
         writeScene("second", 2);
@@ -203,6 +204,9 @@ TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
     EXPECT_EQ(viewer->drawn()->wanted.view.camera.position, viewer->state().view.camera.position);
     drag("pictures", 0.2, 0.3, 3); // looks around
     EXPECT_NE(viewer->state().view.camera.target, start.target);
+    tap('P');
+    EXPECT_EQ(viewer->state().views.back().name, "stored-1");
+    EXPECT_FALSE(fs::is_empty("obscura/views"));
     tap('F');
     EXPECT_EQ(viewer->state().view.camera.target, start.target);
 
