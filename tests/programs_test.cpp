@@ -180,7 +180,7 @@ TEST(Programs, RefuseWrongOnes) {
         {"obscura-render --exposure inf" + small, "expected a number from -32 to 32"},
         {"obscura-render --camera nan 0 0 1 0 0", "expected a number from"},
         {"obscura-render --scene sculpture", "or --frame, which finds a view"},
-        {"obscura-render --frame" + camera, "--frame excludes --camera"},
+        {"obscura-render --frame" + camera, "--camera excludes --frame"},
         {"obscura-render --camera 0 0 0 0 0 0 --width 32 --height 18 --out @/o.png",
          "a target apart from the position"},
         {"obscura-render --camera 0 5 0 0 0 0 --width 32 --height 18 --out @/o.png",

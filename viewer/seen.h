@@ -16,7 +16,7 @@ struct Seen {
     Level level; // `environment`: absolute, or relative to the working folder
     Normals normals = Normals::smooth;
     bool textures = true;
-    int width = 1280, height = 720; // of the panes' pictures; those of a new study get as many
+    int width = 1280, height = 720; // of the panes' pictures
     std::vector<Settings> panes;    // two for a pair: its first member, its second
 };
 

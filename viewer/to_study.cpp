@@ -41,17 +41,6 @@ void expectPair(const Seen& seen) {
                            a.technique().id));
 }
 
-std::vector<std::string> notesOf(const Seen& seen) {
-    std::vector<std::string> notes;
-    if (!seen.textures)
-        notes.emplace_back("The study shows textures, which are off on the screen.");
-    if (fs::path(seen.view.file).is_absolute())
-        notes.emplace_back(
-            "The scene is not in the scenes folder (--scenes), so the study names it "
-            "by its whole path, which other machines do not have.");
-    return notes;
-}
-
 TomlFields conditionFields(const Condition& condition) {
     return {{"id", tomlText(condition.id)},
             {"scene", tomlText(condition.view)},
@@ -154,7 +143,13 @@ void expectNew(const Condition& wanted, const Protocol& protocol) {
 }
 
 std::vector<std::string> notesOf(const Seen& seen, const Protocol& protocol, const fs::path& file) {
-    std::vector<std::string> notes = notesOf(seen);
+    std::vector<std::string> notes;
+    if (!seen.textures)
+        notes.emplace_back("The study shows textures, which are off on the screen.");
+    if (fs::path(seen.view.file).is_absolute())
+        notes.emplace_back(
+            "The scene is not in the scenes folder (--scenes), so the study names it "
+            "by its whole path, which other machines do not have.");
     const double study = static_cast<double>(protocol.width) / protocol.height,
                  screen = static_cast<double>(seen.width) / seen.height;
     if (std::abs(study / screen - 1) > 0.01)
@@ -233,8 +228,8 @@ std::string protocolText(const Seen& seen, const std::string& name, const fs::pa
     const Placed pair = placedIn(Protocol(), folder, seen);
     std::string text =
         format("{}name = {}\ntitle = \"Which picture looks more realistic?\"\nseed = "
-               "1\n{}\n[image]\nwidth = {}\nheight = {}\nantialiasing = 4\n",
-               protocolHead, tomlText(name), normalsLine(seen.normals), seen.width, seen.height);
+               "1\n{}\n[image]\nwidth = 1280\nheight = 720\nantialiasing = 4\n",
+               protocolHead, tomlText(name), normalsLine(seen.normals));
     for (const NewTable& table : pair.added)
         text += table.name.empty() ? format("\n[[{}]]\n{}", table.parent, tomlLines(table.fields))
                                    : "\n" + tomlTable(table.parent, table.name, table.fields);
@@ -264,11 +259,10 @@ Added addPair(const fs::path& file, const Seen& seen) {
         replace(file, text, result.text);
         return result;
     }
-    Added result{protocolText(seen, studyName(file), fs::absolute(file).parent_path()), "",
-                 notesOf(seen)};
-    result.condition = parseProtocol(result.text, file.string()).conditions.front().id;
-    writeNew(file, result.text);
-    return result;
+    const std::string text = protocolText(seen, studyName(file), fs::absolute(file).parent_path());
+    const Protocol protocol = parseProtocol(text, file.string());
+    writeNew(file, text);
+    return {text, protocol.conditions.front().id, notesOf(seen, protocol, file)};
 }
 
 std::string sweepText(const std::string& name, const std::vector<View>& cameras, const Seen& seen,
@@ -304,10 +298,9 @@ std::string sweepText(const std::string& name, const std::vector<View>& cameras,
         "# Cameras and techniques of obscura-view: obscura-bench sweep THIS_FILE --scenes SCENES\n"
         "# A list in a setting's place (samples = [8, 16]) measures each of its values.\n"
         "name = {}\nseed = 1\nreference = \"cosine\"\nrays = 256\n{}train = {}\ntest = {}\nsizes "
-        "= [[{}, {}]]\n\n[training]\nwidth = {}\nheight = {}\n\n[light] # for errors of lit "
+        "= [[960, 540]]\n\n[training]\nwidth = 480\nheight = 270\n\n[light] # for errors of lit "
         "images\n{}",
-        tomlText(name), normalsLine(seen.normals), tomlList(train), tomlList(test), seen.width,
-        seen.height, std::max(seen.width / 2, 16), std::max(seen.height / 2, 16),
+        tomlText(name), normalsLine(seen.normals), tomlList(train), tomlList(test),
         tomlLines(fieldsOf(levelIn(folder, seen.level))));
     for (const std::vector<NewTable>* tables : {&scenes, &techniques})
         for (const NewTable& table : *tables)

@@ -12,8 +12,8 @@ namespace obscura {
 // of plain values, and are read back by the studies' own readers before any file is touched. A file
 // is written whole or not at all.
 
-// A whole protocol whose only condition is the pair: two seconds of grey between, a choice, a
-// balanced order, English texts. `folder` is where it will lie.
+// A whole protocol whose only condition is the pair: images of 1280 x 720, two seconds of grey
+// between, a choice, a balanced order, English texts. `folder` is where it will lie.
 std::string protocolText(const Seen& seen, const std::string& name,
                          const std::filesystem::path& folder);
 
@@ -31,8 +31,9 @@ Added withPair(const std::string& text, const std::filesystem::path& file, const
 // The same for a file, or a new one named after it where there is none.
 Added addPair(const std::filesystem::path& file, const Seen& seen);
 
-// A study that `obscura-bench sweep` takes: every third camera fits, the others judge. Techniques
-// that trace rays are left out. An Error where fewer than two cameras, or no technique, are left.
+// A study that `obscura-bench sweep` takes: every third camera fits, the others judge, on 960 x
+// 540 pixels as in ours. Techniques that trace rays are left out. An Error where fewer than two
+// cameras, or no technique, are left.
 std::string sweepText(const std::string& name, const std::vector<View>& cameras, const Seen& seen,
                       const std::filesystem::path& folder);
 // Writes it; never over a file that is there.

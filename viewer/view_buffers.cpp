@@ -74,6 +74,7 @@ bool ViewBuffers::see(const Wanted& wanted) {
 }
 
 bool ViewBuffers::draw(int guard, const GBufferContent& content, bool white, bool sharp) {
+    sharp = sharp || !subject_.scene().sharpens();
     const auto known = sights_.find(guard);
     if (known != sights_.end() && known->second.view == view_ && known->second.white == white &&
         (known->second.sharp || !sharp) && holds(known->second.gbuffer.content(), content))

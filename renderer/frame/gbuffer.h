@@ -48,6 +48,7 @@ class GpuScene {
     // Whether textures are filtered anisotropically from now on, as at first. Without, they are
     // blurred where they are seen at grazing angles, and software rasterisers take half the time.
     void sharpen(bool sharp) const;
+    bool sharpens() const { return !anisotropic_.empty(); } // any texture
     // Whether anything shows light of its own, so that a G-buffer should hold emission.
     bool emits() const { return emits_; }
     const std::vector<PointLight>& lights() const { return lights_; }

@@ -79,6 +79,27 @@ TEST_F(PainterTest, LitPicturesAreThoseOfStimuli) {
     }
 }
 
+// A wall of many pieces that fills every picture: none of it may be left out.
+TEST_F(PainterTest, NothingThatIsSeenIsLeftOut) {
+    Scene scene;
+    for (int x = -60; x < 60; ++x)
+        for (int y = -60; y < 60; ++y) {
+            const float left = static_cast<float>(x), low = static_cast<float>(y);
+            addQuad(scene, {glm::vec3(left, low, 0), glm::vec3(left + 1, low, 0),
+                            glm::vec3(left + 1, low + 1, 0), glm::vec3(left, low + 1, 0)});
+        }
+    painter_.open(1, scene);
+    Wanted wanted = wantedOf(1, {settingsOf("none")});
+    for (const double side : {-3.0, 0.3, 2.0}) {
+        wanted.view.camera.position = {side, 0.7, 6};
+        wanted.view.camera.target = {-0.5 * side, 0.3 * side, 0};
+        draw(wanted);
+        const Surfaces surfaces = painter_.surfaces();
+        for (std::size_t i = 0; i < surfaces.depth.size(); ++i)
+            ASSERT_FALSE(surfaces.empty(i)) << i << " from " << side;
+    }
+}
+
 // A time is kept with what was drawn in it: two measured times are never equal to the last bit.
 TEST_F(PainterTest, OneSliderRunsOneTechnique) {
     openRoom();
@@ -162,6 +183,33 @@ TEST_F(PainterTest, WithoutTexturesAllIsWhite) {
     EXPECT_NEAR(painter_.probe(80, 80)->albedo.value().r, 0.2158, 1e-3);
     wanted.textures = false;
     EXPECT_THAT(colourAt(imageOf(*draw(wanted).panes[0].picture), 80, 80), testing::Each(255));
+}
+
+// A checked floor, seen flat: blurred in a draft, and then as it would have been without one.
+TEST_F(PainterTest, ADraftIsSharpenedByTheNextPicture) {
+    Scene scene = room();
+    Texture texture;
+    texture.image = {64, 64, 4, {}};
+    for (int i = 0; i < 64 * 64; ++i)
+        texture.image.pixels.insert(texture.image.pixels.end(), 4, (i + i / 64) % 2 ? 255 : 60);
+    texture.srgb = true;
+    scene.textures.push_back(texture);
+    scene.materials.front().baseColourTexture.texture = 0;
+    for (Vertex& vertex : scene.vertices)
+        vertex.uv = {vertex.position.x * 0.2f, vertex.position.z * 0.2f};
+    painter_.open(1, scene);
+    Wanted wanted = wantedOf(1, {settingsOf("none")});
+    wanted.view.camera.position = {0, 0.2, 5};
+    const Drawn sharp = draw(wanted);
+    wanted.view.camera.position[0] = 0.1;
+    draw(wanted);
+    wanted.view.camera.position[0] = 0;
+    const Drawn draft = painter_.draw(wanted, {}, true);
+    EXPECT_TRUE(draft.draft);
+    EXPECT_NE(imageOf(*draft.panes[0].picture).pixels, imageOf(*sharp.panes[0].picture).pixels);
+    const Drawn again = draw(wanted);
+    EXPECT_FALSE(again.draft);
+    EXPECT_EQ(imageOf(*again.panes[0].picture).pixels, imageOf(*sharp.panes[0].picture).pixels);
 }
 
 TEST_F(PainterTest, ErrorsAndDifferencesHaveTheColoursOfTheirScale) {

@@ -35,8 +35,6 @@ Seen sample() {
     seen.view.exposure = 0.4;
     seen.level.name = "moderate";
     seen.level.sky = Sky{};
-    seen.width = 64;
-    seen.height = 36;
     seen.panes = {settingsIn("crytek samples=16", 0.35), settingsIn("gtao low", 0.35)};
     return seen;
 }
@@ -103,8 +101,8 @@ TEST(ToStudy, AWholeProtocolIsReadBack) {
         const Protocol protocol =
             parseProtocol(protocolText(seen, "mine", "/studies"), "/studies/mine.toml");
         EXPECT_EQ(protocol.name, "mine");
-        EXPECT_EQ(protocol.width, 64);
-        EXPECT_EQ(protocol.height, 36);
+        EXPECT_EQ(protocol.width, 1280);
+        EXPECT_EQ(protocol.height, 720);
         ASSERT_EQ(protocol.conditions.size(), 1u);
         EXPECT_EQ(protocol.conditions[0].id, "atrium-camera-1-moderate-crytek16-gtao-low");
         expectShows(protocol, protocol.conditions[0].id, seen);
@@ -209,10 +207,10 @@ TEST(ToStudy, WhatTheStudyShowsOtherwiseIsSaid) {
     Seen seen = sample();
     seen.textures = false;
     seen.view.radius = 0.5;
-    seen.height = 64;
+    seen.width = 720;
     const Added result =
         withPair(protocolText(sample(), "mine", "/studies"), "/studies/mine.toml", seen);
-    EXPECT_THAT(result.notes, ElementsAre(HasSubstr("textures"), HasSubstr("64 x 36, wider")));
+    EXPECT_THAT(result.notes, ElementsAre(HasSubstr("textures"), HasSubstr("1280 x 720, wider")));
     seen.view.builtin.clear();
     seen.view.file = "/elsewhere/room.glb";
     EXPECT_THAT(withPair(result.text, "/studies/mine.toml", seen).notes,
@@ -287,7 +285,7 @@ TEST(ToStudy, CamerasMakeASweep) {
     EXPECT_THAT(names, ElementsAre("atrium-camera-1", "atrium-camera-1-3", "atrium-camera-1-2",
                                    "atrium-nave"));
     EXPECT_EQ(study.match.test.size(), 2u);
-    EXPECT_EQ(study.sizes[0].width, 64);
+    EXPECT_EQ(study.sizes[0].width, 960);
     EXPECT_EQ(study.match.techniques.size(), 2u); // not what is compared with
     EXPECT_EQ(fieldsOf(*study.light), fieldsOf(seen.level));
     EXPECT_EQ(settingsOf(study.match.techniques[1], 0.35).values(), seen.panes[1].values());

@@ -106,6 +106,7 @@ TEST_F(WorkerTest, TheNewestWishReplacesThoseThatWait) {
     EXPECT_TRUE(worker_.waitUntilDrawn(patience));
     EXPECT_EQ(worker_.newest()->wanted, wish);
     EXPECT_LT(worker_.newest()->number, 100U);
+    EXPECT_FALSE(worker_.newest()->draft);
 }
 
 TEST_F(WorkerTest, AFileThatCannotBeReadIsToldAndTheSceneStays) {
