@@ -40,9 +40,9 @@ glm::dvec3 middleOf(const Bounds& bounds) {
 struct Look {
     Camera camera;
     double score = -1;
-    double seen = 0;     // share of the scene's surfaces that can be seen from there
-    double eye = 0;      // metres above the floor; 0 where there is none
-    double farthest = 0; // as Framing has it
+    double seen = 0;                    // share of the scene's surfaces that can be seen from there
+    double eye = 0;                     // metres above the floor; 0 where there is none
+    double narrowest = 0, farthest = 0; // as Framing has them
 };
 
 // What matters of a surface is half its area, half its detail: by area alone, bare walls behind the
@@ -221,25 +221,33 @@ Look Scout::fitted(double turn, double rise) const {
     // |x - cx| < tanX (cz - z), and the same with y: each border is the farthest of planes.
     double left = 1e300, rightmost = -1e300, low = 1e300, high = -1e300, nearest = -1e300,
            farthest = 1e300;
-    for (const std::uint32_t first : extent_.subjectTriangles)
-        for (std::uint32_t i = first; i < first + 3; ++i) {
-            const glm::dvec3 from =
-                glm::dvec3(sight_.scene().vertices[sight_.scene().indices[i]].position) - middle;
-            const double x = glm::dot(from, right), y = glm::dot(from, up),
-                         z = glm::dot(from, back);
-            left = std::min(left, x - tanX * z);
-            rightmost = std::max(rightmost, x + tanX * z);
-            low = std::min(low, y - tanY * z);
-            high = std::max(high, y + tanY * z);
-            nearest = std::max(nearest, z);
-            farthest = std::min(farthest, z);
-        }
+    const auto forEachCorner = [&](const auto& use) {
+        for (const std::uint32_t first : extent_.subjectTriangles)
+            for (std::uint32_t i = first; i < first + 3; ++i) {
+                const glm::dvec3 from =
+                    glm::dvec3(sight_.scene().vertices[sight_.scene().indices[i]].position) -
+                    middle;
+                use(glm::dot(from, right), glm::dot(from, up), glm::dot(from, back));
+            }
+    };
+    forEachCorner([&](double x, double y, double z) {
+        left = std::min(left, x - tanX * z);
+        rightmost = std::max(rightmost, x + tanX * z);
+        low = std::min(low, y - tanY * z);
+        high = std::max(high, y + tanY * z);
+        nearest = std::max(nearest, z);
+        farthest = std::min(farthest, z);
+    });
     const double away = std::max({(rightmost - left) / (2 * tanX), (high - low) / (2 * tanY),
                                   nearest + 0.02 * diagonal(extent_.subject)});
     Look look;
     look.farthest = away - farthest;
+    const double across = (left + rightmost) / 2;
+    forEachCorner([&](double x, double, double z) {
+        look.narrowest = std::max(look.narrowest, std::abs(x - across) / (tanY * (away - z)));
+    });
     look.camera.fovDegrees = outdoorFov;
-    const glm::dvec3 axis = middle + right * ((left + rightmost) / 2) + up * ((low + high) / 2);
+    const glm::dvec3 axis = middle + right * across + up * ((low + high) / 2);
     look.camera.position = arrayOf(axis + back * away);
     look.camera.target = arrayOf(axis);
     return look;
@@ -332,7 +340,7 @@ Framing framing(const Scene& scene, const RayTracer& tracer, std::uint64_t seed,
                       "such as a floor, may reach beyond.";
     const double size = diagonal(result.inside ? extent.whole : extent.subject);
     result.camera = chosen.camera;
-    result.aspect = aspect;
+    result.narrowest = chosen.narrowest;
     result.farthest = chosen.farthest;
     const Glimpse at = glimpse(scout.sight(), result.camera, aspect, size);
     if (at.shown <= 0)
@@ -358,11 +366,11 @@ Framing framing(const Scene& scene, const RayTracer& tracer, std::uint64_t seed,
 
 Camera fitted(const Framing& framing, double aspect) {
     Camera camera = framing.camera;
-    if (!(framing.farthest > 0) || !(aspect < framing.aspect))
+    if (!(framing.farthest > 0) || !(aspect < framing.narrowest))
         return camera;
     // What is d away may be d tan(half the angle) to the side: less by the ratio of the shapes,
     // which a step back by d times (ratio - 1) makes up for; most of it for the farthest.
-    const double step = framing.farthest * (framing.aspect / aspect - 1);
+    const double step = framing.farthest * (framing.narrowest / aspect - 1);
     camera.position = arrayOf(vec(camera.position) -
                               step * glm::normalize(vec(camera.target) - vec(camera.position)));
     return camera;

@@ -31,9 +31,9 @@ struct Framing {
     double radius = 0; // of occlusion, metres (suggestedRadius)
     bool inside = false;
     std::string why; // all of it in words: whole sentences
-    // What the whole of an object needs in a picture of another shape: the shape it was framed for,
-    // and how far from the camera its farthest point is, metres; 0 where the camera stays.
-    double aspect = 0, farthest = 0;
+    // What the whole of an object needs in a picture of another shape: the narrowest that it is all
+    // in, and how far from the camera its farthest point is, metres; 0 where the camera stays.
+    double narrowest = 0, farthest = 0;
 };
 
 // The same scene, seed and aspect (width / height of the picture) give the same view. Needs no

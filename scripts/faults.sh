@@ -49,6 +49,18 @@ fault radius-lost renderer/techniques/settings.cpp \
 fault unmatched-depth renderer/render.cpp \
     's|hashTargets\(inputs, gbuffer\.target\(\), lighting\.readsNormals\(\) \? 3 : 2\)|hashTargets(inputs, gbuffer.target(), 1)|' \
     generate_gl_test 'Generate.DepthIsPartOfWhatMustMatch'
+fault emission-unmatched renderer/render.cpp \
+    's|hashTarget\(inputs, gbuffer\.target\(\), 4\)|(void)inputs|' \
+    generate_gl_test 'Generate.EmissionIsPartOfWhatMustMatch'
+fault transform-turned renderer/scene/scene.cpp \
+    's|glm::mat2\(c, -s, s, c\)|glm::mat2(c, s, -s, c)|' \
+    renderer_test 'TextureUse.*'
+fault holes-elsewhere renderer/reference/ray_scene.cpp \
+    's|use\.at\(vertex\)|vertex.uv|' \
+    reference_gl_test '*HolesOfMaskedMaterials'
+fault metals-lose-light renderer/shaders/light.frag \
+    's|other\.again \+ scattered, metal\.again|other.again + scattered, vec3(0.0)|' \
+    frame_gl_test '*AWhiteSurface*'
 fault code-forgotten renderer/render.cpp \
     's|std::string\(code\)|std::string(code.substr(0, 0))|' \
     generate_gl_test 'Generate.RendersAgainWhenTheRenderingCodeChanges'

@@ -79,6 +79,27 @@ TEST_F(PainterTest, LitPicturesAreThoseOfStimuli) {
     }
 }
 
+// A wall of many pieces that fills every picture: none of it may be left out.
+TEST_F(PainterTest, NothingThatIsSeenIsLeftOut) {
+    Scene scene;
+    for (int x = -60; x < 60; ++x)
+        for (int y = -60; y < 60; ++y) {
+            const float left = static_cast<float>(x), low = static_cast<float>(y);
+            addQuad(scene, {glm::vec3(left, low, 0), glm::vec3(left + 1, low, 0),
+                            glm::vec3(left + 1, low + 1, 0), glm::vec3(left, low + 1, 0)});
+        }
+    painter_.open(1, scene);
+    Wanted wanted = wantedOf(1, {settingsOf("none")});
+    for (const double side : {-3.0, 0.3, 2.0}) {
+        wanted.view.camera.position = {side, 0.7, 6};
+        wanted.view.camera.target = {-2 * side, side, 0};
+        draw(wanted);
+        const Surfaces surfaces = painter_.surfaces();
+        for (std::size_t i = 0; i < surfaces.depth.size(); ++i)
+            ASSERT_FALSE(surfaces.empty(i)) << i << " from " << side;
+    }
+}
+
 // A time is kept with what was drawn in it: two measured times are never equal to the last bit.
 TEST_F(PainterTest, OneSliderRunsOneTechnique) {
     openRoom();

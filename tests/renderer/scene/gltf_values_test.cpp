@@ -8,6 +8,7 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -181,38 +182,46 @@ TEST_F(GltfValues, InstancesStandWhereEachIs) {
                                    "attributes have, found 1 of 3"));
 }
 
+json withLight(int index, json node) {
+    node["extensions"]["KHR_lights_punctual"]["light"] = index;
+    return node;
+}
+
+// The first stands in a node that is moved; the second looks along -x, the third down.
 TEST_F(GltfValues, LightsStandWhereTheirNodesDo) {
     gltf_.root["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(
         R"([{"type":"point","color":[1,0.5,0],"intensity":8,"range":3},{"type":"directional"},)"
         R"({"type":"spot","spot":{"innerConeAngle":0.5}}])");
-    const auto light = [](int index) { return json{{"KHR_lights_punctual", {{"light", index}}}}; };
-    // The first stands in a node that is moved; the second looks along -x, the third down.
     gltf_.root["nodes"].push_back({{"children", {2, 3, 4}}, {"translation", {1, 2, 3}}});
-    gltf_.root["nodes"].push_back({{"extensions", light(0)}, {"translation", {0, 1, 0}}});
+    gltf_.root["nodes"].push_back(withLight(0, {{"translation", {0, 1, 0}}}));
     gltf_.root["nodes"].push_back(
-        {{"extensions", light(1)}, {"rotation", {0, half, 0, half}}, {"scale", {2, 2, 2}}});
-    gltf_.root["nodes"].push_back({{"extensions", light(2)}, {"rotation", {-half, 0, 0, half}}});
+        withLight(1, {{"rotation", {0, half, 0, half}}, {"scale", {2, 2, 2}}}));
+    gltf_.root["nodes"].push_back(withLight(2, {{"rotation", {-half, 0, 0, half}}}));
     gltf_.root["scenes"][0]["nodes"] = {0, 1};
     const Scene scene = load();
-    EXPECT_THAT(scene.warnings, testing::IsEmpty());
     ASSERT_EQ(scene.lights.size(), 3U);
     const PointLight &point = scene.lights[0], &sun = scene.lights[1], &spot = scene.lights[2];
-    EXPECT_EQ(point.kind, PointLight::Kind::point);
+    using Kind = PointLight::Kind;
+    EXPECT_THAT((std::array{point.kind, sun.kind, spot.kind}),
+                ElementsAre(Kind::point, Kind::directional, Kind::spot));
     expectNear(point.position, {1, 3, 3});
     expectNear(point.intensity, {8, 4, 0});
     EXPECT_EQ(point.range, 3);
-    EXPECT_EQ(sun.kind, PointLight::Kind::directional);
     expectNear(sun.direction, {-1, 0, 0});
     expectNear(sun.intensity, {1, 1, 1});
-    EXPECT_EQ(spot.kind, PointLight::Kind::spot);
     expectNear(spot.direction, {0, -1, 0});
     EXPECT_FLOAT_EQ(spot.innerCosine, std::cos(0.5F));
     EXPECT_FLOAT_EQ(spot.outerCosine, half);
-    gltf_.root["nodes"][2]["extensions"] = light(3);
-    EXPECT_THAT(error(), HasSubstr("nodes[2].extensions.KHR_lights_punctual.light: expected an "
-                                   "index into extensions.KHR_lights_punctual.lights, 0 to 2"));
-    gltf_.root.erase("extensions");
-    EXPECT_THAT(error(), HasSubstr("of which there are none"));
+}
+
+TEST_F(GltfValues, ALightThatIsNotThereIsAnError) {
+    gltf_.root["nodes"][0] = withLight(1, gltf_.root["nodes"][0]);
+    const std::string where = "nodes[0].extensions.KHR_lights_punctual.light: expected an index "
+                              "into extensions.KHR_lights_punctual.lights, ";
+    EXPECT_THAT(error(), HasSubstr(where + "of which there are none"));
+    gltf_.root["extensions"]["KHR_lights_punctual"]["lights"] =
+        json::parse(R"([{"type":"point"}])");
+    EXPECT_THAT(error(), HasSubstr(where + "0 to 0, found 1"));
 }
 
 TEST_F(GltfValues, CamerasStandWhereTheirNodesDo) {
