@@ -149,13 +149,13 @@ std::vector<Camera> foundCameras(const Sight& sight, const RayTracer& tracer, do
     std::vector<Camera> found;
     while (static_cast<int>(found.size()) < count) {
         const Candidate* best = nullptr;
-        double most = 0;
+        double greatest = 0;
         for (const Candidate& candidate : candidates) {
             double nearest = 1;
             for (const Camera& taken : found)
                 nearest = std::min(nearest, apart(candidate.camera, taken, size));
-            if (candidate.interest * nearest > most) {
-                most = candidate.interest * nearest;
+            if (candidate.interest * nearest > greatest) {
+                greatest = candidate.interest * nearest;
                 best = &candidate;
             }
         }
