@@ -56,6 +56,8 @@ Application::Application(const CommandLine& line)
                                        !window_.sharesWithWorker())) {
     if (line_.scenes.empty())
         line_.scenes = ".";
+    if (!line_.protocol.empty())
+        desk_.protocol = line_.protocol.string();
     browser_.folder = fs::current_path();
     if (fs::is_directory(line_.scenes))
         browser_.folder = fs::canonical(line_.scenes);
@@ -244,7 +246,11 @@ Image8 Application::picture() {
 }
 
 void Application::run() {
-    const bool traced = line_.reference || line_.show == Show::error || line_.show == Show::jod;
+    const bool traced = line_.reference || line_.show == Show::error || line_.show == Show::jod ||
+                        std::any_of(line_.techniques.begin(), line_.techniques.end(),
+                                    [](const TechniqueSetting& each) {
+                                        return technique(each.technique).reads & rays;
+                                    });
     while (!window_.closing()) {
         step(line_.picture.empty() ? std::numeric_limits<double>::infinity() : 0.05);
         if (!line_.picture.empty() && settled(traced ? line_.rays : 0))

@@ -2,6 +2,7 @@
 #include "viewer/application.h"
 #include "viewer/presets.h"
 #include "viewer/screenshot.h"
+#include "viewer/seen.h"
 #include "viewer/technique_words.h"
 #include "viewer/to_study.h"
 
@@ -37,14 +38,20 @@ Seen seenOf(const State& state, const Wanted& wanted) {
 }
 
 // The panes' techniques under names of their own, each once.
+// Of each pane, once where two are alike.
 std::vector<TechniqueSetting> techniquesOf(const Wanted& wanted) {
     std::vector<TechniqueSetting> all;
-    for (const Settings& settings : wanted.panes) {
-        TechniqueSetting setting = settingOf(settings, wanted.view.radius);
-        setting.name = nameOf(setting);
-        if (std::none_of(all.begin(), all.end(),
-                         [&](const auto& each) { return each.name == setting.name; }))
-            all.push_back(setting);
+    std::vector<std::string> names;
+    for (auto pane = wanted.panes.begin(); pane != wanted.panes.end(); ++pane) {
+        if (std::any_of(wanted.panes.begin(), pane, [&](const Settings& before) {
+                return &before.technique() == &pane->technique() &&
+                       before.values() == pane->values();
+            }))
+            continue;
+        TechniqueSetting setting = settingOf(*pane, wanted.view.radius);
+        setting.name = newName(setting.name, names);
+        names.push_back(setting.name);
+        all.push_back(std::move(setting));
     }
     return all;
 }
@@ -100,8 +107,8 @@ void Application::addStudy(const Requests& requests) {
     }
     if (requests.addPair) {
         const Added added = addPair(desk_.protocol, seenOf(state_, wanted()));
-        say(fmt::format("Condition \"{}\" is in {}.{}", added.condition, desk_.protocol,
-                        lines(added.notes)));
+        say(fmt::format("Condition \"{}\" is in {}.{}", added.condition,
+                        std::filesystem::absolute(desk_.protocol).string(), lines(added.notes)));
     }
     if (requests.writeSweep) {
         std::vector<View> views = state_.views;
@@ -111,8 +118,8 @@ void Application::addStudy(const Requests& requests) {
             view.ground = state_.view.ground;
         }
         writeSweep(desk_.sweep, views, seenOf(state_, wanted()));
-        say(fmt::format("{} has {} views; obscura-bench sweep takes it.", desk_.sweep,
-                        views.size()));
+        say(fmt::format("{} has {} views; obscura-bench sweep takes it.",
+                        std::filesystem::absolute(desk_.sweep).string(), views.size()));
     }
 }
 
