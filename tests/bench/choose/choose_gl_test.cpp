@@ -136,9 +136,6 @@ void ChooseTest::whatCameNearestIsMeasured() {
 
 // One test, for what was fitted once is not fitted again.
 TEST_F(ChooseTest, Races) {
-#ifdef OBSCURA_SANITIZED
-    GTEST_SKIP() << "half a minute of llvmpipe; the tests of sweeps and matches run the same code";
-#endif
     theBestWithinATime();
     triesUntilThreeFail();
     whatCameNearestIsMeasured();
