@@ -153,7 +153,7 @@ std::string whatWouldAdmit(const Budget& budget, const Candidate& candidate) {
         needed = std::max(needed, views.value_or(0));
     }
     if (over)
-        return text + "; more views would not, for its mean misses the limit.";
+        return text + "; more views would not, for its mean misses the limit or is too near to it.";
     return text + format("; so might {} views that scatter like these {}, for the mean itself "
                          "meets the limit.",
                          needed, candidate.views.size());
