@@ -344,8 +344,8 @@ Framing framing(const Scene& scene, const RayTracer& tracer, std::uint64_t seed,
     result.farthest = chosen.farthest;
     const Glimpse at = glimpse(scout.sight(), result.camera, aspect, size);
     if (at.shown <= 0)
-        throw Error("expected surfaces that can be seen, found none from any side; where the "
-                    "scene's triangles face away, make its materials double-sided");
+        throw Error("expected surfaces that can be seen, found none from any side: they face away "
+                    "(make the materials double-sided) or their masks cut all of them out");
     result.camera.target = arrayOf(
         vec(chosen.camera.position) +
         at.middle * glm::normalize(vec(chosen.camera.target) - vec(chosen.camera.position)));

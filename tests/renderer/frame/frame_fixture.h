@@ -1,29 +1,14 @@
 #pragma once
 
-#include "gl/context.h"
 #include "image/image.h"
 #include "renderer/frame/composite.h"
 #include "renderer/scene/quads.h"
-
-#include <gtest/gtest.h>
+#include "tests/renderer/gl_test.h"
 
 #include <filesystem>
-#include <memory>
 #include <vector>
 
 namespace obscura {
-
-// One headless context for all tests of the program.
-class FrameTest : public testing::Test {
-  protected:
-    static void SetUpTestSuite() {
-        if (!context)
-            context = std::make_unique<gl::Context>();
-    }
-    void TearDown() override { EXPECT_NO_THROW(gl::throwMessages()); }
-
-    inline static std::unique_ptr<gl::Context> context;
-};
 
 // What one small picture holds, rows from the bottom.
 struct Drawn {

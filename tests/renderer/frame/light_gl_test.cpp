@@ -11,7 +11,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-class LightOnMaterials : public FrameTest {};
+class LightOnMaterials : public GlTest {};
 
 Material metalOf(glm::vec3 colour, float metallic, float roughness) {
     Material material;

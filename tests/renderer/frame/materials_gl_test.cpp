@@ -7,7 +7,7 @@
 namespace obscura {
 namespace {
 
-class Materials : public FrameTest {};
+class Materials : public GlTest {};
 
 void expectAlike(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b, float most,
                  const char* what) {

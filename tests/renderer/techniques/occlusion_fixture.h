@@ -1,31 +1,16 @@
 #pragma once
 
-#include "gl/context.h"
 #include "image/image.h"
 #include "renderer/reference/traced.h"
 #include "renderer/scene/proxies.h"
 #include "renderer/scene/quads.h"
 #include "renderer/techniques/occlusion_passes.h"
 #include "renderer/techniques/settings.h"
+#include "tests/renderer/gl_test.h"
 
-#include <gtest/gtest.h>
-
-#include <memory>
 #include <optional>
 
 namespace obscura {
-
-// One headless context for all tests of a program; a test that asks for nothing special shares it.
-class GlTest : public testing::Test {
-  protected:
-    static void SetUpTestSuite() {
-        if (!context)
-            context = std::make_unique<gl::Context>();
-    }
-    void TearDown() override { EXPECT_NO_THROW(gl::throwMessages()); }
-
-    inline static std::unique_ptr<gl::Context> context;
-};
 
 // Constant white light from everywhere, for techniques that read light.
 inline Level whiteLight() {
