@@ -40,12 +40,6 @@ static_assert(static_cast<int>(Key::leftControl) == GLFW_KEY_LEFT_CONTROL);
 
 namespace {
 
-std::string reason() {
-    const char* text = nullptr;
-    glfwGetError(&text);
-    return text ? text : "no reason given";
-}
-
 Monitor describe(GLFWmonitor* handle) {
     Monitor monitor;
     const GLFWvidmode* mode = glfwGetVideoMode(handle);
@@ -89,18 +83,8 @@ void hintWindow(const GLFWvidmode& mode) {
 
 } // namespace
 
-Window::Library::Library() {
-    if (!glfwInit())
-        throw Error(fmt::format("no screen to open a window on ({}); is DISPLAY or "
-                                "WAYLAND_DISPLAY set?",
-                                reason()));
-}
-Window::Library::~Library() { glfwTerminate(); }
-
-void Window::Destroy::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-
 std::vector<Monitor> monitors() {
-    const Window::Library library;
+    const Library library;
     int count = 0;
     GLFWmonitor** handles = glfwGetMonitors(&count);
     std::vector<Monitor> result;
@@ -142,7 +126,7 @@ void Window::open(const WindowOptions& options) {
                                    options.windowed ? nullptr : handle, nullptr));
     if (!window_)
         throw Error(fmt::format("expected a window with OpenGL 4.5 on monitor {} ({}): {}",
-                                options.monitor, monitor_.name, reason()));
+                                options.monitor, monitor_.name, Library::problem()));
     if (options.windowed)
         glfwSetWindowPos(window_.get(), monitor_.x + (monitor_.width - size.width) / 2,
                          monitor_.y + (monitor_.height - size.height) / 2);

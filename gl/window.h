@@ -3,6 +3,7 @@
 #include "gl/context.h"
 #include "gl/gamepad.h"
 #include "gl/input.h"
+#include "gl/library.h"
 #include "gl/picture.h"
 #include "gl/sleep_watch.h"
 
@@ -16,7 +17,6 @@
 #include <vector>
 
 struct GLFWmonitor;
-struct GLFWwindow;
 
 namespace obscura::gl {
 
@@ -100,18 +100,6 @@ class Window {
     void setTitle(const std::string& title);
 
   private:
-    // GLFW itself, for as long as its window lives.
-    struct Library {
-        Library();
-        ~Library();
-        Library(const Library&) = delete;
-        Library& operator=(const Library&) = delete;
-    };
-    struct Destroy {
-        void operator()(GLFWwindow* window) const;
-    };
-    friend std::vector<Monitor> monitors();
-
     void open(const WindowOptions& options);
     void listen();
     void checkScreen();
@@ -124,7 +112,7 @@ class Window {
     Library library_;
     GLFWmonitor* screen_ = nullptr;
     Monitor monitor_; // the same, described
-    std::unique_ptr<GLFWwindow, Destroy> window_;
+    WindowHandle window_;
     int width_ = 0, height_ = 0;
     std::vector<Input> inputs_, taken_;
     Gamepads gamepads_;

@@ -17,12 +17,6 @@ namespace obscura {
 
 namespace {
 
-std::string reason() {
-    const char* text = nullptr;
-    glfwGetError(&text);
-    return text ? text : "no reason given";
-}
-
 void hintContext() {
     glfwDefaultWindowHints();
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -39,22 +33,13 @@ ViewerWindow& self(GLFWwindow* window) {
 
 } // namespace
 
-ViewerWindow::Library::Library() {
-    if (!glfwInit())
-        throw Error(fmt::format("expected a screen to open a window on, found none ({}); is "
-                                "DISPLAY or WAYLAND_DISPLAY set? obscura-view --test needs none",
-                                reason()));
-}
-ViewerWindow::Library::~Library() { glfwTerminate(); }
-
-void ViewerWindow::Destroy::operator()(GLFWwindow* window) const { glfwDestroyWindow(window); }
-
 ViewerWindow::ViewerWindow(int width, int height, double uiScale) : uiScale_(uiScale) {
     hintContext();
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, uiScale == 0 ? GLFW_TRUE : GLFW_FALSE);
     window_.reset(glfwCreateWindow(width, height, "Obscura", nullptr, nullptr));
     if (!window_)
-        throw Error(fmt::format("expected a window with OpenGL 4.5, found none: {}", reason()));
+        throw Error(fmt::format("expected a window with OpenGL 4.5, found none: {}",
+                                gl::Library::problem()));
     glfwMakeContextCurrent(window_.get());
     gl::collectMessages();
     shares_ = !gl::currentDriver().software;
@@ -65,7 +50,7 @@ ViewerWindow::ViewerWindow(int width, int height, double uiScale) : uiScale_(uiS
         if (!hidden_)
             throw Error(fmt::format("expected a second OpenGL context that shares objects with the "
                                     "window's, found none: {}",
-                                    reason()));
+                                    gl::Library::problem()));
     }
     glfwSetWindowSizeLimits(window_.get(), 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwSwapInterval(1);

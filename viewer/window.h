@@ -1,6 +1,7 @@
 #pragma once
 
 #include "gl/input.h"
+#include "gl/library.h"
 #include "image/image.h"
 #include "viewer/style.h"
 
@@ -70,23 +71,12 @@ class ViewerWindow {
     void copyText(const std::string& text);
 
   private:
-    struct Library {
-        Library();
-        ~Library();
-        Library(const Library&) = delete;
-        Library& operator=(const Library&) = delete;
-    };
-    struct Destroy {
-        void operator()(GLFWwindow* window) const;
-    };
-    using Handle = std::unique_ptr<GLFWwindow, Destroy>;
-
     void listen();
     void startImGui();
     void adoptScale();
 
-    Library library_;
-    Handle window_, hidden_;
+    gl::Library library_{"; obscura-view --test needs none"};
+    gl::WindowHandle window_, hidden_;
     Theme theme_;
     double uiScale_;
     int width_ = 0, height_ = 0;
