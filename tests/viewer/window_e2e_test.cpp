@@ -277,8 +277,6 @@ TEST_F(ViewerTest, APersonOpensFliesTunesComparesTestsAndSavesAPair) {
     await("the drop", [&] { return dragged.serve(); });
     await("the dropped scene",
           [&] { return viewer->state().view.file.ends_with("first.gltf") && viewer->settled(); });
-
-    EXPECT_LT(viewer->longestFrame(), 0.5); // of which 0.1 is promised to an idle machine
 }
 
 } // namespace
