@@ -9,12 +9,6 @@ namespace obscura::builtin {
 
 namespace {
 
-// 0 at `from`, 1 at `to`, which may be the smaller.
-float ramp(float from, float to, float x) {
-    const float t = glm::clamp((x - from) / (to - from), 0.0F, 1.0F);
-    return t * t * (3 - 2 * t);
-}
-
 // One stone of a wall or floor: which one, and how far inside its edge (metres).
 struct Stone {
     float tone; // 0 ... 1, the stone's own

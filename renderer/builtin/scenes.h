@@ -9,5 +9,6 @@ namespace obscura::builtin {
 Scene sculpture();
 Scene atrium();
 Scene figures();
+Scene room();
 
 } // namespace obscura::builtin
