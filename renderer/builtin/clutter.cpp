@@ -50,8 +50,8 @@ Shape book(glm::vec3 size, glm::vec3 colour) {
 
 glm::vec3 bookSize(Random& random, float height, float depth) {
     const float format = between(random, 0.62, 1.0);
-    return {between(random, 0.014, 0.044), height * format,
-            depth * (0.3F + 0.7F * format) * between(random, 0.88, 1.0)};
+    const float thick = between(random, 0.014, 0.044), deep = between(random, 0.88, 1.0);
+    return {thick, height * format, depth * (0.3F + 0.7F * format) * deep};
 }
 
 } // namespace
@@ -81,7 +81,8 @@ Shape bookStack(int count, Random& random) {
         size.y = std::max(size.y, 0.2F - 0.01F * part(i, 1));
         Shape lying;
         lying.add(book(size, clothColour(random)), rolled({size.y / 2, 0, size.z / 2}, 90));
-        shape.add(lying, at({between(random, -0.01, 0.01), y, 0}, between(random, -9, 9)));
+        const float aside = between(random, -0.01, 0.01), turn = between(random, -9, 9);
+        shape.add(lying, at({aside, y, 0}, turn));
         y += size.x + 0.0005F;
     }
     return shape;
@@ -154,9 +155,8 @@ Shape fruit(float bowlRadius, Random& random) {
         Shape apple = tinted(lathe(outline, 18), colour);
         apple.add(tinted(rod({0, 0.7F * radius, 0, 0.0018F}, {0.006F, 1.1F * radius, 0, 0.0022F}, 5),
                          {0.25F, 0.17F, 0.10F}));
-        const glm::mat4 turn = glm::rotate(at(place, between(random, 0, 360)),
-                                           glm::radians(between(random, -30, 30)), glm::vec3(1, 0, 0));
-        shape.add(apple, turn);
+        const float turn = between(random, 0, 360), tilt = between(random, -30, 30);
+        shape.add(apple, glm::rotate(at(place, turn), glm::radians(tilt), glm::vec3(1, 0, 0)));
     };
     const float size = 0.30F * bowlRadius, ring = 0.46F * bowlRadius;
     for (int i = 0; i < 5; ++i) {
@@ -222,7 +222,7 @@ Shape twigs(int count, float length, Random& random) {
         std::vector<glm::vec4> path;
         for (int k = 0; k <= 6; ++k) {
             const float t = part(k, 6);
-            const glm::vec3 crook = 0.014F * glm::vec3(between(random, -1, 1), 0, between(random, -1, 1));
+            const glm::vec3 crook = 0.014F * glm::vec3{between(random, -1, 1), 0, between(random, -1, 1)};
             path.emplace_back(reach * (out * lean * t * (0.5F + 0.5F * t) + glm::vec3(0, t, 0)) +
                                   (t > 0 ? crook : glm::vec3(0)) - glm::vec3(0, 0.12F * (1 - t), 0),
                               0.0032F * (1 - 0.6F * t));
@@ -231,7 +231,7 @@ Shape twigs(int count, float length, Random& random) {
         for (int k = 2; k <= 6; ++k) // buds
             for (int side = 0; side < 2; ++side) {
                 const glm::vec3 p(path[static_cast<std::size_t>(k)]);
-                const glm::vec3 away(between(random, -1, 1), 0.7F, between(random, -1, 1));
+                const glm::vec3 away{between(random, -1, 1), 0.7F, between(random, -1, 1)};
                 const glm::vec3 tip = p + 0.03F * glm::normalize(away);
                 shape.add(tinted(tube(std::array{glm::vec4(p, 0.0012F),
                                                  glm::vec4(glm::mix(p, tip, 0.55F), 0.0075F),

@@ -196,7 +196,8 @@ void fillShelf(Works& works, const glm::mat4& place, float width, float free, in
     const float deep = 0.13F; // half the board's depth
     const glm::mat4 left = place * at({0.02F, 0, deep - 0.02F});
     const auto thing = [&](float x, int which) {
-        const glm::mat4 spot = place * at({x, 0, between(random, -0.02, 0.03)}, between(random, 0, 360));
+        const float out = between(random, -0.02, 0.03), turn = between(random, 0, 360);
+        const glm::mat4 spot = place * at({x, 0, out}, turn);
         switch (which % 6) {
         case 0:
             works.ceramic.add(tinted(vase(std::min(0.26F, 0.8F * free)), {0.72F, 0.68F, 0.60F}), spot);

@@ -10,5 +10,6 @@ Scene sculpture();
 Scene atrium();
 Scene figures();
 Scene room();
+Scene garden();
 
 } // namespace obscura::builtin

@@ -50,4 +50,15 @@ Painter rugPattern();                            // covers the rug once
 Painter painting();                              // covers the canvas once
 Painter speckle(glm::vec3 colour, float amount); // 0.5 m: any plain thing that is not quite
 
+Painter bricks(); // 2 m
+Painter bark();   // 1 m, upwards along u
+Painter earth();  // 2 m
+Painter turf();   // 2 m: what is seen between blades of grass
+// A twig along v, cut out by alpha: so many pairs of leaves and one at its tip, of this width to
+// length.
+Painter twig(int pairs, float width, glm::vec3 dark, glm::vec3 light);
+Painter ivy();             // one lobed leaf along v, cut out by alpha
+Painter lavender();        // one stalk along v with its flower, cut out by alpha
+Painter reed();            // a narrow leaf along v, cut out by alpha
+
 } // namespace obscura::builtin
