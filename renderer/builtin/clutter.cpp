@@ -136,7 +136,7 @@ Shape bowl(float radius, float height) {
                            0.02F + (height - 0.022F) * t * t});
     }
     outline.push_back({0, 0.02F});
-    return lathe(outline, 36);
+    return lathe(outline, 28);
 }
 
 Shape fruit(float bowlRadius, Random& random) {
@@ -262,15 +262,15 @@ Shape candlestick(float height) {
 Shape basket(float radius, float height) {
     const auto wall = [=](float t) { return radius * (0.80F + 0.20F * std::sqrt(t)); };
     Outline outline{{0, 0}, {wall(0), 0}};
-    const int courses = 14;
+    const int courses = 11;
     for (int i = 0; i < courses; ++i) // each a round strand
         addArc(outline, {wall(part(i, courses)), height * (part(i, courses) + part(1, 2 * courses))},
-               0.46F * height / part(courses, 1), -80, 80, 4);
+               0.46F * height / part(courses, 1), -80, 80, 3);
     addArc(outline, {radius - 0.004F, height}, 0.011F, 0, 180, 6);
     outline.insert(outline.end(), {{0.95F * radius - 0.012F, 0.7F * height},
                                    {wall(0) - 0.012F, 0.012F},
                                    {0, 0.012F}});
-    Shape shape = lathe(outline, 32);
+    Shape shape = lathe(outline, 26);
     for (const float side : {-1.0F, 1.0F}) {
         std::vector<glm::vec4> path;
         for (int i = 0; i <= 12; ++i) {
@@ -329,7 +329,7 @@ Shape throwOver(float across, float width, float leftDrop, float rightDrop) {
 
 Rug rug(glm::vec2 size) {
     Rug result;
-    result.pile = rounded({size.x, 0.016F, size.y}, 0.005F, 40);
+    result.pile = rounded({size.x, 0.016F, size.y}, 0.005F, 18, 1);
     const Noise noise("builtin/rug");
     deform(result.pile, [&](glm::vec3 p) { // lies not quite flat
         const float wave = noise.value(glm::vec3(2.2F * p.x, 3, 2.2F * p.z));

@@ -15,6 +15,12 @@ glm::mat4 tilted(glm::vec3 position, float degrees) { // about x
                        glm::vec3(1, 0, 0));
 }
 
+// One piece of wood among others.
+void addWood(Shape& shape, Shape piece, const glm::mat4& place) {
+    alongGrain(piece);
+    shape.add(piece, place);
+}
+
 // Thick in its lower middle, thin at the foot.
 Shape turnedLeg(glm::vec3 top, glm::vec3 foot, float radius) {
     constexpr std::array<glm::vec2, 6> profile{
@@ -54,7 +60,7 @@ void addBack(Shape& shape) {
 } // namespace
 
 Shape windsorChair() {
-    Shape seat = rounded({0.44F, 0.036F, 0.43F}, 0.016F, 6);
+    Shape seat = rounded({0.44F, 0.036F, 0.43F}, 0.016F, 4, 2);
     deform(seat, [](glm::vec3 p) { // narrower behind, hollowed for who sits
         const float x = p.x / 0.22F, z = p.z / 0.215F;
         const float hollow = p.y > 0 ? 0.012F * std::max(0.0F, 1 - x * x) *
@@ -63,7 +69,7 @@ Shape windsorChair() {
         return glm::vec3(p.x * (1 + 0.06F * z - 0.05F * z * z), p.y - hollow, p.z * (1 - 0.08F * x * x));
     });
     Shape shape;
-    shape.add(seat, at({0, 0.432F, 0}));
+    addWood(shape, seat, at({0, 0.432F, 0}));
     const auto leg = [](float x, float z) { // where a leg is at height y
         return [=](float y) {
             const float down = 1 - y / 0.42F;
@@ -84,12 +90,12 @@ Shape windsorChair() {
 Shape table(glm::vec3 size) {
     const float top = 0.03F, inset = 0.07F;
     Shape shape;
-    shape.add(rounded({size.x, top, size.z}, 0.008F), at({0, size.y - top / 2, 0}));
+    addWood(shape, rounded({size.x, top, size.z}, 0.008F), at({0, size.y - top / 2, 0}));
     const glm::vec2 legs(size.x / 2 - inset, size.z / 2 - inset);
     const float apron = 0.075F, under = size.y - top - apron / 2;
     for (const float side : {-1.0F, 1.0F}) {
-        shape.add(box({2 * legs.x - 0.04F, apron, 0.02F}, 0.002F), at({0, under, side * legs.y}));
-        shape.add(box({0.02F, apron, 2 * legs.y - 0.04F}, 0.002F), at({side * legs.x, under, 0}));
+        addWood(shape, box({2 * legs.x - 0.04F, apron, 0.02F}, 0.002F), at({0, under, side * legs.y}));
+        addWood(shape, box({0.02F, apron, 2 * legs.y - 0.04F}, 0.002F), at({side * legs.x, under, 0}));
         for (const float end : {-1.0F, 1.0F}) {
             const glm::vec3 foot(side * legs.x, 0, end * legs.y);
             const float height = size.y - top;
@@ -107,7 +113,7 @@ Shape tripodTable(float radius, float height) {
     addArc(top, {radius - 0.011F, -0.011F}, 0.011F, -80, 80, 5);
     top.insert(top.end(), {{radius - 0.012F, 0}, {0, 0}});
     Shape shape;
-    shape.add(lathe(top, 48), at({0, height, 0}));
+    addWood(shape, lathe(top, 48), at({0, height, 0}));
     for (int i = 0; i < 3; ++i) {
         const float angle = glm::two_pi<float>() * (part(i, 3) + 0.08F);
         const glm::vec3 out(std::sin(angle), 0, std::cos(angle));
@@ -134,7 +140,7 @@ namespace {
 
 // A cushion full in its middle.
 Shape stuffed(glm::vec3 size, float radius, float fullness) {
-    Shape shape = rounded(size, radius, 10);
+    Shape shape = rounded(size, radius, 7);
     const glm::vec3 half = size / 2.0F;
     deform(shape, [=](glm::vec3 p) {
         const glm::vec3 q = glm::min(glm::abs(p / half), 1.0F);
@@ -175,7 +181,7 @@ Shelves openShelves(float width, int bays, float depth, std::span<const float> h
     const float top = heights.back() + 0.06F;
     Shelves result;
     for (const float height : heights)
-        result.boards.add(box({width + 0.04F, boardThickness, depth}, 0.003F),
+        addWood(result.boards, box({width + 0.04F, boardThickness, depth}, 0.003F),
                           at({0, height - boardThickness / 2, 0}));
     for (int i = 0; i <= bays; ++i) {
         const float x = each * part(i, 1) - width / 2;
@@ -201,24 +207,24 @@ Shelves sideboard(glm::vec3 size) {
     Shelves result;
     Shape& boards = result.boards;
     for (const float y : {legs + board / 2, size.y - board / 2})
-        boards.add(box({size.x, board, size.z}, 0.004F), at({0, y, 0}));
+        addWood(boards, box({size.x, board, size.z}, 0.004F), at({0, y, 0}));
     for (const float side : {-1.0F, 1.0F})
-        boards.add(box({board, height - 2 * board, size.z - 0.006F}, 0.002F),
+        addWood(boards, box({board, height - 2 * board, size.z - 0.006F}, 0.002F),
                    at({side * (size.x - board) / 2, legs + height / 2, 0}));
-    boards.add(box({size.x - 0.01F, height - 0.01F, 0.01F}, 0.001F),
+    addWood(boards, box({size.x - 0.01F, height - 0.01F, 0.01F}, 0.001F),
                at({0, legs + height / 2, 0.01F - size.z / 2}));
     const float inside = size.x - 2 * board, third = inside / 3;
     for (int i = 0; i < 3; ++i) {
         const float x = third * (part(i, 1) - 1);
         if (i == 1) { // open, with one shelf
-            boards.add(box({third - 0.02F, 0.016F, size.z - 0.03F}, 0.002F),
+            addWood(boards, box({third - 0.02F, 0.016F, size.z - 0.03F}, 0.002F),
                        at({x, legs + height / 2, 0}));
             for (const float side : {-0.5F, 0.5F})
-                boards.add(box({0.016F, height - 2 * board, size.z - 0.02F}, 0.002F),
+                addWood(boards, box({0.016F, height - 2 * board, size.z - 0.02F}, 0.002F),
                            at({x + side * third, legs + height / 2, 0}));
             continue;
         }
-        boards.add(box({third - 0.014F, height - 2 * board - 0.006F, 0.018F}, 0.003F),
+        addWood(boards, box({third - 0.014F, height - 2 * board - 0.006F, 0.018F}, 0.003F),
                    at({x, legs + height / 2, size.z / 2 - 0.014F}));
         const float knob = x - (x > 0 ? 1.0F : -1.0F) * (third / 2 - 0.05F);
         result.bars.add(rod({knob, legs + height / 2, size.z / 2 - 0.01F, 0.006F},

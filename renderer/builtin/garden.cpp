@@ -35,7 +35,8 @@ constexpr float gate = 0.9F;      // z of its middle
 // One shape for each material.
 struct Works {
     Shape brick, stone, slabs, house, paint, earth, turf, grass, bark, leaves, box, boxCore, roses, ivy,
-        lavender, reed, iron, teak, terracotta, zinc;
+        lavender, reed, iron, teak,
+        terracotta, zinc, glass;
 };
 
 Shape flat(glm::vec2 low, glm::vec2 high, float y, int cells) {
@@ -52,7 +53,7 @@ Shape flat(glm::vec2 low, glm::vec2 high, float y, int cells) {
 // A stone of this size that is not quite a box.
 Shape stone(glm::vec3 size, Random& random) {
     const Noise noise("builtin/stone");
-    Shape shape = rounded(size, 0.16F * std::min({size.x, size.y, size.z}), 2);
+    Shape shape = rounded(size, 0.2F * std::min({size.x, size.y, size.z}), 1, 1);
     const float other = between(random, 0, 200);
     deform(shape, [&](glm::vec3 p) {
         return p * (1 + 0.06F * noise.value(p * 7.0F + other)) +
@@ -61,7 +62,8 @@ Shape stone(glm::vec3 size, Random& random) {
     projectUv(shape);
     for (Vertex& vertex : shape.vertices)
         vertex.uv += other;
-    return shape;
+    const float tone = between(random, 0.62, 0.95), warm = between(random, -0.05, 0.05);
+    return tinted(shape, {tone + warm, tone, tone - warm});
 }
 
 // Courses of stones along x, from `from` to `to`, and a coping of flat ones.
@@ -89,7 +91,7 @@ void addGround(Works& works) {
     works.turf = flat({-half.x, bed}, {half.x, terrace}, 0, 24);
     works.earth = flat({-half.x, -half.y}, {half.x, bed}, bedHeight - 0.06F, 12);
     works.earth.add(flat({-half.x, terrace}, {half.x, half.y}, -0.02F, 8));
-    works.earth.add(flat({half.x, -half.y}, {lane + 1, half.y}, -0.01F, 8));
+    works.earth.add(flat({half.x, -half.y}, {lane + 1, half.y + 4}, -0.01F, 8));
     projectUv(works.earth);
     Random random(0, "builtin/garden/paving");
     // The terrace: slabs in rows, none quite level.
@@ -100,7 +102,7 @@ void addGround(Works& works) {
             float length = between(random, 0.45, 0.85);
             if (half.x - x - length < 0.4F)
                 length = half.x - x;
-            Shape slab = box({length - 0.014F, 0.05F, row - 0.014F}, 0.008F);
+            Shape slab = box({length - 0.009F, 0.05F, row - 0.009F}, 0.006F);
             const float tilt = between(random, -0.25, 0.25), level = between(random, -0.003, 0.003);
             const glm::mat4 place = at({x + length / 2, level, terrace + row * (part(j, 1) + 0.5F)});
             Shape placed;
@@ -108,7 +110,8 @@ void addGround(Works& works) {
             projectUv(placed);
             for (Vertex& vertex : placed.vertices)
                 vertex.uv += 3.1F * length;
-            works.slabs.add(placed);
+            const float tone = between(random, 0.55, 0.8), warm = between(random, -0.03, 0.05);
+            works.slabs.add(tinted(placed, {tone + warm, tone, tone - warm}));
             x += length;
         }
     // Stepping stones from the terrace to the gate, and setts in the lane.
@@ -119,7 +122,7 @@ void addGround(Works& works) {
         addArc(rim, {0.24F, 0.0F}, 0.02F, -30, 80, 3);
         rim.emplace_back(0.2F, 0.022F);
         rim.emplace_back(0, 0.024F);
-        Shape round = lathe(rim, 14);
+        Shape round = lathe(rim, 20);
         const Noise noise("builtin/steps");
         deform(round, [&](glm::vec3 p) {
             const float s = 1 + 0.5F * noise.value(glm::vec3(3.2F * p.x, step.x * 7, 3.2F * p.z));
@@ -128,7 +131,7 @@ void addGround(Works& works) {
         Shape placed;
         placed.add(round, at({step.x, 0, step.y}, between(random, 0, 360)));
         projectUv(placed);
-        works.slabs.add(placed);
+        works.slabs.add(tinted(placed, glm::vec3(0.62F, 0.61F, 0.58F)));
     }
 }
 
@@ -175,7 +178,29 @@ void addHouse(Works& works) {
     const glm::mat4 place = at({0, 0, half.y}, 180);
     works.house.add(piercedWall({2 * half.x + 1, 3.6F, 0.4F}, holes), place * at({0, -0.1F, -0.2F}));
     projectUv(works.house);
-    works.house.add(box({2 * half.x + 1, 3.4F, 0.1F}, 0), place * at({0, 1.6F, -0.45F}));
+    // Behind the panes it is dark.
+    works.glass.add(box({2 * half.x + 0.9F, 3.3F, 0.1F}, 0), place * at({0, 1.6F, -0.25F}));
+    // The eaves: a board, a gutter and its pipe, and the roof.
+    works.paint.add(box({2 * half.x + 1.4F, 0.2F, 0.03F}, 0.005F), place * at({0, 3.46F, 0.30F}));
+    works.paint.add(box({2 * half.x + 1.4F, 0.025F, 0.34F}, 0.003F), place * at({0, 3.38F, 0.14F}));
+    Outline gutter;
+    addArc(gutter, {0, 0}, 0.06F, 180, 360, 8);
+    addArc(gutter, {0, 0}, 0.054F, 360, 180, 8);
+    gutter.push_back(gutter.front());
+    const std::array<glm::vec3, 2> eaves{glm::vec3(half.x + 0.7F, 3.52F, half.y - 0.375F),
+                                         glm::vec3(-half.x - 0.7F, 3.52F, half.y - 0.375F)};
+    works.iron.add(arch(gutter, eaves, {0, 3.52F, half.y}));
+    works.iron.add(tube(std::array{glm::vec4(4.6F, 3.47F, half.y - 0.375F, 0.032F),
+                                   glm::vec4(4.6F, 3.36F, half.y - 0.36F, 0.032F),
+                                   glm::vec4(4.6F, 3.2F, half.y - 0.07F, 0.032F),
+                                   glm::vec4(4.6F, 3.08F, half.y - 0.05F, 0.032F),
+                                   glm::vec4(4.6F, 0.02F, half.y - 0.05F, 0.032F)},
+                        12));
+    Shape roof = box({2 * half.x + 1.5F, 0.08F, 2.6F}, 0.01F);
+    Shape tilted;
+    tilted.add(roof, glm::rotate(place * at({0, 4.25F, -0.75F}), glm::radians(33.0F), glm::vec3(1, 0, 0)));
+    projectUv(tilted);
+    works.brick.add(tilted);
     for (const Hole& hole : holes) {
         const glm::vec2 size = hole.high - hole.low;
         const glm::mat4 corner = place * at({(hole.low.x + hole.high.x) / 2, hole.low.y - 0.1F, 0});
@@ -193,13 +218,13 @@ void addPlanting(Works& works) {
     const Tree apple = tree(4.4F, random);
     works.bark.add(apple.wood, at({-2.7F, 0, -0.9F}));
     works.leaves.add(apple.leaves, at({-2.7F, 0, -0.9F}));
-    const Hedge west = hedge({2 * half.y - 0.1F, 1.75F, 0.75F}, 170, random);
+    const Hedge west = hedge({2 * half.y - 0.1F, 1.75F, 0.75F}, 260, random);
     const glm::mat4 westPlace = at({-half.x - 0.3F, 0, 0}, 90);
     works.boxCore.add(west.core, westPlace);
     works.box.add(west.leaves, westPlace);
-    const Hedge across = hedge({2 * half.y + 1, 2.2F, 0.9F}, 110, random);
-    works.boxCore.add(across.core, at({lane + 0.4F, 0, 0}, 90));
-    works.box.add(across.leaves, at({lane + 0.4F, 0, 0}, 90));
+    const Hedge across = hedge({2 * half.y + 6, 2.2F, 0.9F}, 150, random);
+    works.boxCore.add(across.core, at({lane + 0.4F, 0, 2.6F}, -90));
+    works.box.add(across.leaves, at({lane + 0.4F, 0, 2.6F}, -90));
 
     struct Planted {
         float x, z, radius, height;
@@ -220,8 +245,7 @@ void addPlanting(Works& works) {
         works.reed.add(tuft(46, 0.95F, 0.55F, random),
                        at({p.x, p.y < bed ? bedHeight - 0.06F : 0.0F, p.y}));
     const Noise noise("builtin/garden/ivy");
-    works.ivy = Shape();
-    works.ivy.add(climber({-5, 0.3F}, {1.4F, 2.3F}, 190,
+    works.ivy.add(climber({-5, 0.3F}, {1.4F, 2.3F}, 330,
                           [&](glm::vec2 p) {
                               const float top = 2.25F - 0.28F * std::abs(p.x + 3.4F);
                               return std::min(1.0F, top - p.y) + 0.5F * noise.value(glm::vec3(2.2F * p, 1));
@@ -245,7 +269,7 @@ void addGrass(Works& works) {
     const Noise noise("builtin/garden/grass");
     const std::array<glm::vec2, 6> steps{glm::vec2(0.7F, 1.72F), {1.35F, 1.4F}, {2.05F, 1.15F},
                                          {2.75F, 1.0F}, {3.5F, 0.92F}, {4.25F, 0.9F}};
-    works.grass = lawn({-half.x, bed}, {half.x, terrace - 0.02F}, 620,
+    works.grass = lawn({-half.x, bed}, {half.x, terrace - 0.02F}, 680,
                        [&](glm::vec2 p) {
                            for (const glm::vec2 step : steps)
                                if (glm::length(p - step) < 0.27F)
@@ -284,7 +308,24 @@ void addThings(Works& works) {
     works.teak.add(stool(0.46F), at({2.75F, 0.026F, 3.45F}, 70));
     works.zinc.add(mug(), at({2.2F, 0.746F, 2.85F}, 40));
     works.zinc.add(bowl(0.11F, 0.06F), at({2.42F, 0.746F, 3.02F}));
-    works.teak.add(basket(0.19F, 0.24F), at({0.62F, 0, -2.05F}));
+    works.zinc.add(wateringCan(), at({0.72F, 0, -2.0F}, 150));
+    works.teak.add(trellis({1.3F, 1.6F}), at({2.65F, bedHeight - 0.06F, 0.05F - half.y}));
+    works.ivy.add(climber({2.0F, 0.35F}, {3.3F, 1.95F}, 240,
+                          [](glm::vec2 p) {
+                              const float stem = std::abs(p.x - 2.65F - 0.35F * std::sin(3.1F * p.y));
+                              return 0.5F - 1.6F * stem + 0.12F * std::sin(9 * p.x + 5 * p.y) - 0.1F * p.y;
+                          },
+                          random),
+                  at({0, 0, 0.085F - half.y}));
+    // Leaves that have fallen.
+    for (int i = 0; i < 130; ++i) {
+        const float out = 1.9F * std::sqrt(between(random, 0, 1)), turn = between(random, 0, 6.28);
+        const float way = between(random, 0, 6.28), up = between(random, -0.1, 0.25);
+        const glm::vec3 foot(-2.7F + out * std::cos(turn), 0.045F, -0.7F + out * std::sin(turn));
+        if (foot.z > bed + 0.2F)
+            addCard(works.ivy, {foot, 0.06F * glm::normalize(glm::vec3(std::sin(way), up, std::cos(way))),
+                                {0, 1, 0.2F}, 0.055F, 0.2F});
+    }
 }
 
 void furnish(Scene& scene, const Works& works) {
@@ -314,6 +355,11 @@ void furnish(Scene& scene, const Works& works) {
     addLeaves(works.ivy, "ivy", 256, ivy());
     addLeaves(works.lavender, "lavender", 256, lavender());
     addLeaves(works.reed, "reed", 256, reed());
+    Material glass{.name = "glass"};
+    glass.baseColour = {0.02F, 0.025F, 0.03F, 1};
+    glass.roughness = 0.1F;
+    scene.materials.push_back(glass);
+    addMesh(scene, works.glass, static_cast<int>(scene.materials.size()) - 1);
     Material grass{.name = "grass"};
     grass.doubleSided = true;
     grass.roughness = 0.8F;

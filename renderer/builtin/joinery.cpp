@@ -92,9 +92,9 @@ Shape radiator(int columns, float height) {
     for (int i = 0; i < columns; ++i) {
         const float x = pitch * (part(i, 1) - part(columns - 1, 2));
         for (const float z : {-0.05F, 0.0F, 0.05F})
-            shape.add(rod({x, foot, z, 0.0135F}, {x, height, z, 0.0135F}, 10));
+            shape.add(rod({x, foot, z, 0.0135F}, {x, height, z, 0.0135F}, 8));
         for (const float y : {foot + 0.025F, height - 0.025F})
-            shape.add(rounded({pitch - 0.002F, 0.052F, 0.135F}, 0.022F), at({x, y, 0}));
+            shape.add(rounded({pitch - 0.002F, 0.052F, 0.135F}, 0.022F, 1, 1), at({x, y, 0}));
     }
     const float end = pitch * part(columns, 2);
     for (const float side : {-1.0F, 1.0F})
@@ -124,11 +124,53 @@ Shape ironFence(float length, float height, float gap) {
     return shape;
 }
 
+Shape trellis(glm::vec2 size) {
+    const float lath = 0.024F, thin = 0.009F;
+    Shape shape;
+    const int across = static_cast<int>(std::lround(size.x / 0.16F)),
+              up = static_cast<int>(std::lround(size.y / 0.16F));
+    const auto add = [&](glm::vec3 piece, glm::vec3 place) {
+        Shape wood = box(piece, 0.001F);
+        alongGrain(wood);
+        shape.add(wood, at(place));
+    };
+    for (int i = 0; i <= across; ++i)
+        add({lath, size.y, thin}, {size.x * (part(i, across) - 0.5F) * 0.98F, size.y / 2, 0.02F});
+    for (int j = 0; j < up; ++j)
+        add({size.x, lath, thin}, {0, size.y * (part(j, up) + 0.5F / part(up, 1)), 0.0285F});
+    return shape;
+}
+
+Shape wateringCan() {
+    Outline body{{0, 0}, {0.085F, 0}, {0.09F, 0.004F}, {0.09F, 0.20F}, {0.08F, 0.225F}, {0.055F, 0.235F}};
+    body.insert(body.end(), {{0.052F, 0.232F}, {0.052F, 0.22F}, {0.084F, 0.2F}, {0.084F, 0.01F}, {0, 0.01F}});
+    Shape shape = lathe(body, 28);
+    shape.add(tube(std::array{glm::vec4(0.07F, 0.05F, 0, 0.022F), glm::vec4(0.16F, 0.13F, 0, 0.016F),
+                              glm::vec4(0.27F, 0.26F, 0, 0.011F)},
+                   12));
+    shape.add(rod({0.262F, 0.25F, 0, 0.012F}, {0.295F, 0.289F, 0, 0.034F}, 16)); // the rose
+    const auto handle = [&](glm::vec2 from, glm::vec2 over, glm::vec2 to) {
+        std::vector<glm::vec4> path;
+        for (int i = 0; i <= 12; ++i) {
+            const float t = part(i, 12);
+            const glm::vec2 p = (1 - t) * (1 - t) * from + 2 * t * (1 - t) * over + t * t * to;
+            path.emplace_back(p, 0, 0.006F);
+        }
+        shape.add(tube(path, 8));
+    };
+    handle({-0.088F, 0.06F}, {-0.26F, 0.30F}, {-0.05F, 0.236F});
+    handle({-0.045F, 0.235F}, {0.0F, 0.38F}, {0.06F, 0.23F});
+    return shape;
+}
+
 Bench gardenBench(float width) {
     Bench bench;
     const auto slat = [&](glm::vec3 place, float degrees, float across) {
-        bench.wood.add(box({width, across, 0.022F}, 0.005F),
-                       glm::rotate(at(place), glm::radians(degrees), glm::vec3(1, 0, 0)));
+        Shape board = box({width, across, 0.022F}, 0.005F);
+        alongGrain(board);
+        for (Vertex& vertex : board.vertices)
+            vertex.uv.y += 3.7F * place.z;
+        bench.wood.add(board, glm::rotate(at(place), glm::radians(degrees), glm::vec3(1, 0, 0)));
     };
     for (int i = 0; i < 6; ++i) // the seat, hollow in the middle
         slat({0, 0.445F - 0.02F * std::sin(glm::pi<float>() * part(i, 5)), 0.20F - 0.078F * part(i, 1)},

@@ -16,6 +16,10 @@ Shape radiator(int columns, float height);
 
 // An iron fence along x of upright bars, `gap` apart, between two rails, with points on top.
 Shape ironFence(float length, float height, float gap);
+// Laths in both directions, held off the wall.
+Shape trellis(glm::vec2 size);
+// Its spout towards +x.
+Shape wateringCan();
 struct Bench {
     Shape wood, iron;
 };

@@ -56,7 +56,7 @@ class Growth {
 
     void grow(const Branch& branch, std::span<const int> children) {
         const std::vector<glm::vec4> path = bent(branch);
-        tree_.wood.add(tube(path, branch.radius > 0.05F ? 12 : (branch.radius > 0.012F ? 7 : 5)));
+        tree_.wood.add(tube(path, branch.radius > 0.05F ? 12 : (branch.radius > 0.012F ? 6 : 3)));
         if (children.empty()) {
             addLeaves(path);
             return;
@@ -83,7 +83,7 @@ class Growth {
     std::vector<glm::vec4> bent(const Branch& branch) {
         std::vector<glm::vec4> path;
         glm::vec3 p = branch.foot, direction = glm::normalize(branch.direction);
-        const int steps = 5;
+        const int steps = branch.radius > 0.02F ? 5 : 3;
         for (int i = 0; i <= steps; ++i) {
             path.emplace_back(p, branch.radius * (1 - 0.55F * part(i, steps)));
             direction = glm::normalize(direction + 0.16F * anyDirection(random_) +
@@ -100,9 +100,9 @@ class Growth {
     }
 
     void addLeaves(std::span<const glm::vec4> path) {
-        const int count = 7;
+        const int count = 9;
         for (int i = 0; i < count; ++i) {
-            const float t = glm::mix(0.15F, 1.0F, part(i, count - 1));
+            const float t = glm::mix(0.1F, 1.0F, part(i, count - 1));
             const glm::vec3 axis = glm::normalize(at(path, t) - at(path, t - 0.2F));
             const glm::vec3 away = glm::normalize(axis * 0.8F + anyDirection(random_) + glm::vec3(0, -0.15F, 0));
             const float size = leaf_ * between(random_, 0.8, 1.2);
@@ -121,8 +121,8 @@ class Growth {
 
 Tree tree(float height, Random& random) {
     Tree result;
-    Growth growth(result, random, 0.26F);
-    constexpr std::array<int, 3> children{7, 6, 4};
+    Growth growth(result, random, 0.22F);
+    constexpr std::array<int, 3> children{8, 6, 4};
     growth.grow({{0, -0.05F, 0}, {0.06F, 1, 0.02F}, 0.5F * height, 0.034F * height}, children);
     // The roots run out into the ground.
     for (int i = 0; i < 5; ++i) {
@@ -161,7 +161,8 @@ void addTwig(Shape& leaves, glm::vec3 p, glm::vec3 normal, Random& random) {
     const glm::vec3 along = glm::normalize(normal + 0.9F * anyDirection(random) + glm::vec3(0, 0.3F, 0));
     const float size = between(random, 0.09, 0.15);
     addCard(leaves, {p - 0.07F * normal, size * along, normal + 0.8F * anyDirection(random),
-                     0.75F * size, between(random, -0.1, 0.3)});
+                     0.75F * size, between(random, -0.1, 0.3)},
+            1, 1);
 }
 
 } // namespace
@@ -176,7 +177,7 @@ Hedge hedge(glm::vec3 size, int leavesPerSquareMetre, Random& random) {
     result.core.add(core, at({0, half.y, 0}));
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.0F, 1.0F}) {
-            if (axis == 1 && side < 0)
+            if (axis > 0 && side < 0)
                 continue;
             const int u = (axis + 1) % 3, v = (axis + 2) % 3;
             const int count = static_cast<int>(size[u] * size[v] * part(leavesPerSquareMetre, 1));
@@ -250,15 +251,15 @@ namespace {
 void addBlade(Shape& shape, glm::vec3 foot, glm::vec3 lean, float height, float width,
               glm::vec3 colour) {
     const glm::vec3 side = 0.5F * width * glm::normalize(glm::vec3(lean.z, 0, -lean.x));
-    const glm::vec3 middle = foot + height * (glm::vec3(0, 0.62F, 0) + 0.35F * lean);
-    const glm::vec3 tip = foot + height * (glm::vec3(0, 0.95F, 0) + lean);
+    const glm::vec3 middle = foot + height * (glm::vec3(0, 0.6F, 0) + 0.4F * lean);
+    const glm::vec3 tip = foot + height * (glm::vec3(0, 1 - 0.35F * glm::length(lean), 0) + lean);
     const auto first = static_cast<std::uint32_t>(shape.vertices.size());
     const auto put = [&](glm::vec3 p, glm::vec3 up, float light) {
         shape.vertices.push_back({p, glm::normalize(glm::cross(side, up)), {}, {p.x, p.z}, {},
                                   glm::vec4(light * colour, 1)});
     };
-    put(foot - side, middle - foot, 0.45F);
-    put(foot + side, middle - foot, 0.45F);
+    put(foot - side, middle - foot, 0.6F);
+    put(foot + side, middle - foot, 0.6F);
     put(middle - 0.8F * side, tip - foot, 0.85F);
     put(middle + 0.8F * side, tip - foot, 0.85F);
     put(tip, tip - middle, 1.15F);
@@ -277,8 +278,8 @@ Shape lawn(glm::vec2 low, glm::vec2 high, int bladesPerSquareMetre,
     for (int i = 0; i < count; ++i) {
         const glm::vec2 p = low + size * glm::vec2{between(random, 0, 1), between(random, 0, 1)};
         const float height = grows(p) * between(random, 0.6, 1.25);
-        const float turn = between(random, 0, glm::two_pi<double>()), lean = between(random, 0.1, 0.6);
-        const glm::vec3 colour = glm::mix(glm::vec3(0.09F, 0.19F, 0.03F), glm::vec3(0.25F, 0.33F, 0.08F),
+        const float turn = between(random, 0, glm::two_pi<double>()), lean = between(random, 0.15, 0.95);
+        const glm::vec3 colour = glm::mix(glm::vec3(0.13F, 0.24F, 0.04F), glm::vec3(0.34F, 0.42F, 0.12F),
                                           between(random, 0, 1));
         if (height > 0.005F)
             addBlade(shape, {p.x, -0.004F, p.y}, lean * glm::vec3(std::sin(turn), 0, std::cos(turn)),

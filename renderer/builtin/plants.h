@@ -26,6 +26,7 @@ Tree shrub(float radius, float height, float leaf, Random& random);
 struct Hedge {
     Shape core, leaves;
 };
+// Leaves are on top, at both ends of x and on the side of +z, which is what one sees of it.
 Hedge hedge(glm::vec3 size, int leavesPerSquareMetre, Random& random);
 // Clipped to a ball of this radius round the origin.
 Hedge topiary(float radius, Random& random);

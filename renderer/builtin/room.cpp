@@ -62,7 +62,6 @@ void addShell(Works& works) {
     wall(onSouth, 2 * outside.x, {south});
     wall(onEast, 2 * half.y + 0.1F, {east});
     wall(onWest, 2 * half.y + 0.1F, {});
-    projectUv(works.walls);
 }
 
 void addWindow(Works& works, const glm::mat4& place, const Hole& hole, int rows, bool sill) {
@@ -191,62 +190,124 @@ void addSitting(Works& works) {
     works.iron.add(lamp.stand, at({-2.6F, 0, -1.2F}, 20));
 }
 
-// Books and things on one board of the shelves, from the left.
-void fillShelf(Works& works, const glm::mat4& place, float width, float free, int kind, Random& random) {
-    const float deep = 0.13F; // half the board's depth
-    const glm::mat4 left = place * at({0.02F, 0, deep - 0.02F});
-    const auto thing = [&](float x, int which) {
-        const float out = between(random, -0.02, 0.03), turn = between(random, 0, 360);
-        const glm::mat4 spot = place * at({x, 0, out}, turn);
-        switch (which % 6) {
-        case 0:
-            works.ceramic.add(tinted(vase(std::min(0.26F, 0.8F * free)), {0.72F, 0.68F, 0.60F}), spot);
-            break;
-        case 1:
-            works.ceramic.add(tinted(bowl(0.1F, 0.07F), {0.34F, 0.42F, 0.36F}), spot);
-            break;
-        case 2:
-            works.terracotta.add(amphora(std::min(0.24F, 0.8F * free)), spot);
-            break;
-        case 3:
-            works.paper.add(bookStack(4, random), place * at({x, 0, 0}, between(random, -12, 12)));
-            works.ceramic.add(tinted(mug(), {0.75F, 0.60F, 0.36F}), place * at({x, 0.14F, 0}, 60));
-            break;
-        case 4:
-            works.wicker.add(basket(0.12F, 0.16F), place * at({x, 0, 0}, 90));
-            break;
-        default:
-            works.brass.add(candlestick(std::min(0.26F, 0.8F * free)), spot);
-        }
-    };
-    const float books = kind % 3 == 0 ? 0.62F : (kind % 3 == 1 ? 0.40F : 0.86F);
-    const float start = kind % 2 == 0 ? 0.0F : (1 - books) * width;
-    works.paper.add(bookRow(books * width - 0.06F, std::min(0.29F, free - 0.03F), 0.21F, random),
-                    left * at({start, 0, 0}));
-    const float rest = (1 - books) * width, middle = kind % 2 == 0 ? books * width : 0.0F;
-    if (rest > 0.5F)
-        thing(middle + 0.28F * rest, kind + 3);
-    if (rest > 0.2F)
-        thing(middle + (rest > 0.5F ? 0.72F : 0.5F) * rest, kind);
+// What stands on one board between two frames: books over a share of it, things beside them.
+struct ShelfPlan {
+    float books; // share of the width
+    bool right;  // the books are on the right
+    int first, second;
+};
+
+void addThing(Works& works, int kind, const glm::mat4& spot, float free, Random& random) {
+    const float tall = 0.8F * free;
+    switch (kind) {
+    case 0:
+        works.ceramic.add(tinted(vase(std::min(0.26F, tall)), {0.72F, 0.68F, 0.60F}), spot);
+        break;
+    case 1:
+        works.ceramic.add(tinted(bowl(0.1F, 0.07F), {0.34F, 0.42F, 0.36F}), spot);
+        break;
+    case 2:
+        works.terracotta.add(amphora(std::min(0.24F, tall)), spot);
+        break;
+    case 3:
+        works.paper.add(bookStack(4, random), spot);
+        break;
+    case 4:
+        works.wicker.add(basket(0.12F, 0.15F), spot);
+        break;
+    case 5:
+        works.brass.add(candlestick(std::min(0.24F, tall)), spot);
+        works.brass.add(candlestick(std::min(0.19F, tall)), spot * at({0.11F, 0, 0.03F}));
+        break;
+    case 6: { // a picture that leans
+        const Picture image = picture({0.15F, 0.19F});
+        const glm::mat4 lean = glm::rotate(spot * at({0, 0.127F, 0.02F}), glm::radians(-12.0F),
+                                           glm::vec3(1, 0, 0));
+        works.walnut.add(image.frame, lean);
+        works.canvas.add(image.canvas, lean);
+        break;
+    }
+    case 7: // boxes
+        works.paper.add(tinted(rounded({0.26F, 0.12F, 0.2F}, 0.006F), {0.44F, 0.47F, 0.44F}),
+                        spot * at({0, 0.06F, 0}));
+        works.paper.add(tinted(rounded({0.22F, 0.09F, 0.17F}, 0.006F), {0.74F, 0.66F, 0.52F}),
+                        spot * at({0.01F, 0.165F, 0}, 9));
+        break;
+    case 8: // mugs
+        for (int i = 0; i < 3; ++i)
+            works.ceramic.add(tinted(mug(), {0.75F - 0.2F * part(i, 2), 0.62F, 0.40F + 0.2F * part(i, 2)}),
+                              spot * at({0.11F * part(i - 1, 1), 0, 0.03F * part(i % 2, 1)}, 70 * part(i, 1)));
+        break;
+    default: { // a globe
+        works.brass.add(tinted(lathe({{0, 0}, {0.07F, 0}, {0.07F, 0.01F}, {0.012F, 0.02F}, {0.01F, 0.06F}, {0, 0.06F}}, 20),
+                               {0.60F, 0.46F, 0.24F}),
+                        spot);
+        Outline ball{{0, 0.05F}};
+        addArc(ball, {0, 0.15F}, 0.1F, -80, 80, 12);
+        ball.emplace_back(0, 0.25F);
+        works.ceramic.add(tinted(lathe(ball, 24), {0.36F, 0.50F, 0.58F}), spot);
+    }
+    }
 }
 
 void addShelves(Works& works) {
     constexpr std::array<float, 6> heights{0.14F, 0.52F, 0.88F, 1.24F, 1.58F, 1.92F};
+    constexpr std::array<ShelfPlan, 12> plans{
+        ShelfPlan{0.40F, false, 7, 4}, {0.55F, true, 3, -1}, {0.86F, false, -1, -1}, {0.40F, true, 2, 8},
+        {0.62F, true, 0, -1},          {0.80F, false, -1, 5}, {0.36F, false, 9, 6},   {0.66F, true, 1, -1},
+        {0.80F, false, -1, 2},         {0.45F, true, 6, 8},   {0.50F, true, 4, -1},   {0.42F, false, 0, 3}};
     const float width = 2.2F, each = width / 2;
     const glm::mat4 place = at({-1.35F, 0, 0.21F - half.y});
     const Shelves shelves = openShelves(width, 2, 0.27F, heights);
     works.walnut.add(shelves.boards, place);
     works.iron.add(shelves.bars, place);
     Random random(0, "builtin/room/shelves");
-    int kind = 0;
-    for (std::size_t i = 0; i < heights.size(); ++i)
-        for (int bay = 0; bay < 2; ++bay) {
-            const float free = i + 1 < heights.size() ? heights[i + 1] - heights[i] - boardThickness
-                                                      : 0.32F;
-            fillShelf(works, place * at({each * (part(bay, 1) - 1) + 0.02F, heights[i], 0}),
-                      each - 0.04F, free, kind, random);
-            kind += 1 + static_cast<int>(i % 2);
+    const float wide = each - 0.05F;
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const ShelfPlan& plan = plans[i];
+        const std::size_t level = i / 2;
+        const float free = level + 1 < heights.size()
+                               ? heights[level + 1] - heights[level] - boardThickness
+                               : 0.34F;
+        const glm::mat4 left = place * at({each * (part(static_cast<int>(i % 2), 1) - 1) + 0.025F,
+                                           heights[level] + 0.0005F, 0});
+        const float start = plan.right ? (1 - plan.books) * wide : 0.0F;
+        works.paper.add(bookRow(plan.books * wide - 0.02F, std::min(0.29F, free - 0.03F), 0.21F, random),
+                        left * at({start, 0, 0.11F}));
+        const float rest = (1 - plan.books) * wide, from = plan.right ? 0.0F : plan.books * wide;
+        const bool two = plan.first >= 0 && plan.second >= 0;
+        for (const auto& [kind, share] : {std::pair(plan.first, two ? 0.27F : 0.5F),
+                                          {plan.second, two ? 0.76F : 0.5F}}) {
+            const float out = between(random, -0.01, 0.02), turn = between(random, -14, 14);
+            if (kind >= 0)
+                addThing(works, kind, left * at({from + share * rest, 0, out}, turn), free, random);
         }
+    }
+}
+
+// A narrow shelf above the sofa, on which pictures lean.
+void addLedge(Works& works) {
+    const glm::mat4 place = onWest * at({-0.35F, 1.32F, 0});
+    Shape board = rounded({1.7F, 0.025F, 0.15F}, 0.004F);
+    alongGrain(board);
+    works.oak.add(board, place * at({0, -0.0125F, 0.076F}));
+    for (const float x : {-0.6F, 0.0F, 0.6F}) {
+        works.iron.add(rod({x, -0.02F, 0.13F, 0.005F}, {x, -0.15F, 0.004F, 0.005F}), place);
+        works.iron.add(box({0.022F, 0.17F, 0.006F}, 0.002F), place * at({x, -0.105F, 0.003F}));
+    }
+    const auto lean = [&](float x, glm::vec2 canvas) {
+        const Picture image = picture(canvas);
+        const glm::mat4 spot = glm::rotate(place * at({x, canvas.y / 2 + 0.034F, 0.065F}),
+                                           glm::radians(-9.0F), glm::vec3(1, 0, 0));
+        works.walnut.add(image.frame, spot);
+        works.canvas.add(image.canvas, spot);
+    };
+    lean(-0.5F, {0.42F, 0.32F});
+    lean(0.02F, {0.26F, 0.34F});
+    Random random(0, "builtin/room/ledge");
+    addThing(works, 5, place * at({-0.14F, 0, 0.1F}), 0.3F, random);
+    addThing(works, 2, place * at({0.34F, 0, 0.075F}, 60), 0.3F, random);
+    works.paper.add(bookRow(0.26F, 0.2F, 0.13F, random), place * at({0.5F, 0.0005F, 0.14F}));
 }
 
 void addSideboard(Works& works) {
@@ -284,6 +345,43 @@ void addPlantAndFloor(Works& works) {
     Random random(0, "builtin/room/floor");
     works.paper.add(bookStack(6, random), at({-1.62F, 0.0F, -1.62F}, 12));
     works.paper.add(bookStack(2, random), at({0.4F, 0.44F, 0.62F}, 40));
+    // A child's bricks and ball.
+    constexpr std::array<glm::vec3, 4> colours{glm::vec3(0.74F, 0.28F, 0.20F), {0.82F, 0.66F, 0.28F},
+                                               {0.30F, 0.46F, 0.58F}, {0.78F, 0.70F, 0.56F}};
+    const Shape brick = box({0.05F, 0.05F, 0.05F}, 0.003F);
+    for (int i = 0; i < 11; ++i) {
+        const float x = between(random, -0.3, 0.3), z = between(random, -0.22, 0.22);
+        works.paper.add(tinted(brick, colours[static_cast<std::size_t>(i % 4)]),
+                        at({0.55F + x, 0.025F, 1.32F + z}, between(random, 0, 90)));
+    }
+    for (int i = 0; i < 4; ++i)
+        works.paper.add(tinted(brick, colours[static_cast<std::size_t>(3 - i)]),
+                        at({0.98F, 0.025F + 0.05F * part(i, 1), 1.1F}, 17 * part(i, 1)));
+    Outline ball;
+    addArc(ball, {0, 0.09F}, 0.09F, -90, 90, 14);
+    ball.front().x = ball.back().x = 0;
+    works.ceramic.add(tinted(lathe(ball, 26), {0.72F, 0.30F, 0.22F}), at({0.15F, 0, 1.9F}));
+    // The lamp's cord to its socket.
+    works.iron.add(tube(std::array{glm::vec4(-2.6F, 0.30F, -1.2F, 0.003F), glm::vec4(-2.64F, 0.03F, -1.26F, 0.003F),
+                                   glm::vec4(-2.6F, 0.004F, -1.38F, 0.003F), glm::vec4(-2.68F, 0.004F, -1.5F, 0.003F),
+                                   glm::vec4(-2.8F, 0.004F, -1.52F, 0.003F), glm::vec4(-2.9F, 0.03F, -1.6F, 0.003F),
+                                   glm::vec4(-2.95F, 0.18F, -1.62F, 0.003F), glm::vec4(-2.975F, 0.25F, -1.62F, 0.008F)},
+                        6));
+    for (const glm::mat4& place : {onWest * at({1.62F, 0.25F, 0}), onSouth * at({1.0F, 1.05F, 0})})
+        works.paint.add(box({0.08F, 0.08F, 0.012F}, 0.004F), place * at({0, 0, 0.005F}));
+}
+
+// Outside the large window: a slab with a railing.
+void addBalcony(Works& works) {
+    const float deep = 1.0F, wide = 3.4F;
+    const glm::mat4 place = onEast * at({(east.low.x + east.high.x) / 2, 0, -thick - deep / 2});
+    works.walls.add(box({wide, 0.16F, deep + 0.1F}, 0.01F), place * at({0, -0.14F, 0}));
+    works.iron.add(ironFence(wide - 0.06F, 1.0F, 0.11F), place * at({0, -0.06F, 0.03F - deep / 2}));
+    for (const float side : {-1.0F, 1.0F})
+        works.iron.add(ironFence(deep - 0.06F, 1.0F, 0.11F),
+                       place * at({side * (wide / 2 - 0.03F), -0.06F, 0.01F}, 90));
+    works.terracotta.add(urn(0.4F), place * at({-1.2F, -0.06F, -0.05F}));
+    works.leaves.add(palm(11, 0.6F), place * at({-1.2F, 0.26F, -0.05F}, 20));
 }
 
 void furnish(Scene& scene, const Works& works) {
@@ -325,8 +423,11 @@ Scene room() {
     addDining(works);
     addSitting(works);
     addShelves(works);
+    addLedge(works);
     addSideboard(works);
     addPlantAndFloor(works);
+    addBalcony(works);
+    projectUv(works.walls);
     Scene scene;
     furnish(scene, works);
     return scene;

@@ -64,7 +64,7 @@ Painter weave(float ribs) {
         const float thread = noise.cell(warp ? i : j, warp ? 3 : 80) - 0.5F;
         const float worn = noise.clouds(uv * 4.0F, 4, 4);
         Texel texel;
-        texel.colour = glm::vec3(0.72F + 0.2F * bulge + 0.16F * thread + 0.10F * worn);
+        texel.colour = glm::vec3(0.78F + 0.13F * bulge + 0.09F * thread + 0.10F * worn);
         texel.height = 0.0009F * bulge + 0.0004F * thread;
         return texel;
     };
@@ -76,7 +76,7 @@ Painter limewash(glm::vec3 colour) {
         const float roller = noise.clouds(uv * 128.0F, 128, 3);
         Texel texel;
         texel.colour = colour * (1 + 0.05F * brush + 0.02F * roller);
-        texel.height = 0.0012F * roller + 0.002F * brush;
+        texel.height = 0.0004F * roller + 0.0007F * brush;
         return texel;
     };
 }

@@ -194,6 +194,25 @@ void projectUv(Shape& shape) {
     }
 }
 
+void alongGrain(Shape& piece) {
+    glm::vec3 low(1e9F), high(-1e9F);
+    for (const Vertex& vertex : piece.vertices) {
+        low = glm::min(low, vertex.position);
+        high = glm::max(high, vertex.position);
+    }
+    const glm::vec3 size = high - low;
+    const auto longest = [](glm::vec3 v) {
+        return v.x >= v.y && v.x >= v.z ? 0 : (v.y >= v.z ? 1 : 2);
+    };
+    const int fibres = longest(size);
+    const float other = 7.3F * (size.x + 3 * size.y + 9 * size.z); // another part of the tree
+    for (Vertex& vertex : piece.vertices) {
+        const int facing = longest(glm::abs(vertex.normal));
+        const int u = facing == fibres ? (fibres + 1) % 3 : fibres;
+        vertex.uv = {vertex.position[u] + other, vertex.position[3 - facing - u] + 1.7F * other};
+    }
+}
+
 namespace {
 
 // The box's 24 vertices: each face's own corners, drawn in by the chamfer. Bit i of `corner` says
@@ -252,8 +271,7 @@ Shape box(glm::vec3 size, float bevel) {
 namespace {
 
 // The lines of a grid on one face of the box round a rounded one: close together where it bends.
-std::vector<float> gridLines(float half, float radius, int cells) {
-    const int arc = 3;
+std::vector<float> gridLines(float half, float radius, int cells, int arc) {
     std::vector<float> lines;
     for (int i = arc; i > 0; --i)
         lines.push_back(radius - half -
@@ -267,15 +285,15 @@ std::vector<float> gridLines(float half, float radius, int cells) {
 
 } // namespace
 
-Shape rounded(glm::vec3 size, float radius, int cells) {
+Shape rounded(glm::vec3 size, float radius, int cells, int arc) {
     const glm::vec3 half = size / 2.0F;
     Shape shape;
     for (int face = 0; face < 6; ++face) {
         const int axis = face / 2;
         const float sign = face % 2 == 0 ? 1.0F : -1.0F;
         const int across = (axis + (sign > 0 ? 1 : 2)) % 3, up = (axis + (sign > 0 ? 2 : 1)) % 3;
-        const std::vector<float> x = gridLines(half[across], radius, cells);
-        const std::vector<float> y = gridLines(half[up], radius, cells);
+        const std::vector<float> x = gridLines(half[across], radius, cells, arc);
+        const std::vector<float> y = gridLines(half[up], radius, cells, arc);
         for (const float b : y)
             for (const float a : x) {
                 glm::vec3 p;

@@ -79,8 +79,9 @@ Shape rod(glm::vec4 from, glm::vec4 to, int sides = 8); // a straight one
 
 // Centred, with chamfered edges that are shaded as if round.
 Shape box(glm::vec3 size, float bevel);
-// Centred, with round edges and corners; `cells` across each flat part, for what is bent later.
-Shape rounded(glm::vec3 size, float radius, int cells = 1);
+// Centred, with round edges and corners, each edge bent in 2 x `arc` steps; `cells` across each flat
+// part, for what is deformed later.
+Shape rounded(glm::vec3 size, float radius, int cells = 1, int arc = 3);
 
 // Moves each vertex, and turns its normal as the mapping turns the surface there.
 using Mapping = std::function<glm::vec3(glm::vec3)>;
@@ -94,5 +95,7 @@ void splitFolds(Shape& shape);
 
 // Texture coordinates by projection along the axis that the normal is nearest to, as stone is cut.
 void projectUv(Shape& shape);
+// The same of one piece of wood, whose fibres run along its longest side.
+void alongGrain(Shape& piece);
 
 } // namespace obscura::builtin

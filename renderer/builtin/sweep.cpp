@@ -145,7 +145,8 @@ void addEnd(Shape& shape, const Station& station, glm::vec3 direction, int sides
         const float angle = glm::two_pi<float>() * part(i, sides);
         const glm::vec3 out =
             std::cos(angle) * station.across + std::sin(angle) * station.up;
-        shape.vertices.push_back({station.origin + out, direction, {}, {out.x, out.y}});
+        const glm::vec2 flat = glm::length(station.across) * glm::vec2(std::cos(angle), std::sin(angle));
+        shape.vertices.push_back({station.origin + out, direction, {}, flat});
     }
     const bool ahead = glm::dot(glm::cross(station.across, station.up), direction) > 0;
     for (std::uint32_t i = 2; i < static_cast<std::uint32_t>(sides); ++i)
