@@ -82,7 +82,7 @@ Shape piercedWall(glm::vec3 size, std::span<const Hole> holes) {
     const std::vector<float> xs = cutsOf(-size.x / 2, size.x / 2, holes, 0);
     const std::vector<float> ys = cutsOf(0, size.y, holes, 1);
     const auto isSolid = [&](std::size_t i, std::size_t j) { // cell (i, j) of the grid of cuts
-        if (i >= xs.size() - 1 || j >= ys.size() - 1) // also below 0, which wraps round
+        if (i >= xs.size() - 1 || j >= ys.size() - 1)        // also below 0, which wraps round
             return false;
         const glm::vec2 middle(xs[i] + xs[i + 1], ys[j] + ys[j + 1]);
         return std::none_of(holes.begin(), holes.end(), [&](const Hole& hole) {

@@ -115,8 +115,8 @@ std::string contentSha256(const Scene& scene) {
 std::span<const std::string> builtinSceneNames() { return names; }
 
 Scene builtinScene(std::string_view name) {
-    constexpr std::array makers{&builtin::sculpture, &builtin::atrium, &builtin::figures, &builtin::room,
-                               &builtin::garden};
+    constexpr std::array makers{&builtin::sculpture, &builtin::atrium, &builtin::figures,
+                                &builtin::room, &builtin::garden};
     static_assert(makers.size() == std::tuple_size_v<std::remove_const_t<decltype(names)>>);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())

@@ -94,20 +94,24 @@ Shape openBook() {
         Shape half = patch(
             [](glm::vec2 uv) { // from the fold outwards
                 const float x = 0.15F * uv.x;
-                const float y = 0.006F + 0.018F * std::sin(glm::pi<float>() * std::sqrt(uv.x + 0.01F)) *
+                const float y = 0.006F + 0.018F *
+                                             std::sin(glm::pi<float>() * std::sqrt(uv.x + 0.01F)) *
                                              (1 - 0.6F * uv.x);
                 return glm::vec3(x, y, 0.11F - 0.22F * uv.y);
             },
             10, 1, {0.15F, 0.22F});
-        const std::array<glm::vec3, 4> foot{glm::vec3(0, 0.004F, 0.11F), {0.15F, 0.004F, 0.11F},
-                                            {0.15F, 0.004F, -0.11F}, {0, 0.004F, -0.11F}};
+        const std::array<glm::vec3, 4> foot{glm::vec3(0, 0.004F, 0.11F),
+                                            {0.15F, 0.004F, 0.11F},
+                                            {0.15F, 0.004F, -0.11F},
+                                            {0, 0.004F, -0.11F}};
         for (std::size_t i = 0; i < 3; ++i) // the edges of the pages
             half.add(patch(
                 [&](glm::vec2 uv) {
                     glm::vec3 p = glm::mix(foot[i], foot[i + 1], uv.x);
                     const float u = p.x / 0.15F;
-                    const float top = 0.006F + 0.018F * (1 - 0.6F * u) *
-                                                   std::sin(glm::pi<float>() * std::sqrt(u + 0.01F));
+                    const float top =
+                        0.006F +
+                        0.018F * (1 - 0.6F * u) * std::sin(glm::pi<float>() * std::sqrt(u + 0.01F));
                     p.y = glm::mix(p.y, top, uv.y);
                     return p;
                 },
@@ -132,8 +136,9 @@ Shape bowl(float radius, float height) {
     addArc(outline, {radius - thick / 2, height}, thick / 2, 20, 160, 4);
     for (int i = 10; i >= 0; --i) {
         const float t = part(i, 10);
-        outline.push_back({glm::mix(foot - 0.01F, radius - thick, std::sin(1.45F * t) / std::sin(1.45F)),
-                           0.02F + (height - 0.022F) * t * t});
+        outline.push_back(
+            {glm::mix(foot - 0.01F, radius - thick, std::sin(1.45F * t) / std::sin(1.45F)),
+             0.02F + (height - 0.022F) * t * t});
     }
     outline.push_back({0, 0.02F});
     return lathe(outline, 28);
@@ -153,8 +158,9 @@ Shape fruit(float bowlRadius, Random& random) {
         const glm::vec3 colour = green ? glm::vec3(0.55F, 0.62F, 0.22F)
                                        : glm::vec3(0.72F, between(random, 0.18, 0.34), 0.14F);
         Shape apple = tinted(lathe(outline, 18), colour);
-        apple.add(tinted(rod({0, 0.7F * radius, 0, 0.0018F}, {0.006F, 1.1F * radius, 0, 0.0022F}, 5),
-                         {0.25F, 0.17F, 0.10F}));
+        apple.add(
+            tinted(rod({0, 0.7F * radius, 0, 0.0018F}, {0.006F, 1.1F * radius, 0, 0.0022F}, 5),
+                   {0.25F, 0.17F, 0.10F}));
         const float turn = between(random, 0, 360), tilt = between(random, -30, 30);
         shape.add(apple, glm::rotate(at(place, turn), glm::radians(tilt), glm::vec3(1, 0, 0)));
     };
@@ -169,8 +175,7 @@ Shape fruit(float bowlRadius, Random& random) {
 }
 
 Shape mug() {
-    Outline outline{{0, 0.003F}, {0.034F, 0.003F}, {0.036F, 0}, {0.039F, 0.004F},
-                    {0.041F, 0.092F}};
+    Outline outline{{0, 0.003F}, {0.034F, 0.003F}, {0.036F, 0}, {0.039F, 0.004F}, {0.041F, 0.092F}};
     addArc(outline, {0.0395F, 0.093F}, 0.0015F, 0, 180, 4);
     outline.insert(outline.end(), {{0.036F, 0.008F}, {0, 0.008F}});
     Shape shape = lathe(outline, 28);
@@ -202,12 +207,18 @@ Shape vase(float height) {
     Outline outline{{0, 0}, {0.16F, 0}, {0.18F, 0.01F}};
     for (int i = 1; i <= 18; ++i) {
         const float t = part(i, 18);
-        outline.push_back({0.18F + 0.16F * std::sin(glm::pi<float>() * std::pow(t, 0.8F)) * (1 - 0.3F * t) -
-                               0.08F * ramp(0.55F, 1, t),
-                           0.01F + 0.95F * t});
+        outline.push_back(
+            {0.18F + 0.16F * std::sin(glm::pi<float>() * std::pow(t, 0.8F)) * (1 - 0.3F * t) -
+                 0.08F * ramp(0.55F, 1, t),
+             0.01F + 0.95F * t});
     }
-    outline.insert(outline.end(), {{0.12F, 0.99F}, {0.115F, 1.0F}, {0.1F, 0.99F}, {0.085F, 0.94F},
-                                   {0.15F, 0.6F}, {0.12F, 0.1F}, {0, 0.08F}});
+    outline.insert(outline.end(), {{0.12F, 0.99F},
+                                   {0.115F, 1.0F},
+                                   {0.1F, 0.99F},
+                                   {0.085F, 0.94F},
+                                   {0.15F, 0.6F},
+                                   {0.12F, 0.1F},
+                                   {0, 0.08F}});
     for (glm::vec2& point : outline)
         point *= height;
     return lathe(outline, 32);
@@ -216,13 +227,16 @@ Shape vase(float height) {
 Shape twigs(int count, float length, Random& random) {
     Shape shape;
     for (int i = 0; i < count; ++i) {
-        const float turn = glm::two_pi<float>() * (0.618F * part(i, 1)) + between(random, -0.3, 0.3);
-        const float lean = between(random, 0.12, 0.42), reach = length * between(random, 0.75, 1.05);
+        const float turn =
+            glm::two_pi<float>() * (0.618F * part(i, 1)) + between(random, -0.3, 0.3);
+        const float lean = between(random, 0.12, 0.42),
+                    reach = length * between(random, 0.75, 1.05);
         const glm::vec3 out(std::sin(turn), 0, std::cos(turn));
         std::vector<glm::vec4> path;
         for (int k = 0; k <= 6; ++k) {
             const float t = part(k, 6);
-            const glm::vec3 crook = 0.014F * glm::vec3{between(random, -1, 1), 0, between(random, -1, 1)};
+            const glm::vec3 crook =
+                0.014F * glm::vec3{between(random, -1, 1), 0, between(random, -1, 1)};
             path.emplace_back(reach * (out * lean * t * (0.5F + 0.5F * t) + glm::vec3(0, t, 0)) +
                                   (t > 0 ? crook : glm::vec3(0)) - glm::vec3(0, 0.12F * (1 - t), 0),
                               0.0032F * (1 - 0.6F * t));
@@ -245,14 +259,20 @@ Shape twigs(int count, float length, Random& random) {
 
 Shape candlestick(float height) {
     const glm::vec3 brass(0.66F, 0.51F, 0.26F);
-    Outline foot{{0, 0}, {0.048F, 0}, {0.05F, 0.004F}, {0.045F, 0.010F}, {0.014F, 0.018F},
-                 {0.007F, 0.03F}};
-    foot.insert(foot.end(), {{0.006F, 0.55F * height}, {0.013F, 0.58F * height},
-                             {0.022F, 0.6F * height}, {0.022F, 0.61F * height},
-                             {0.0125F, 0.61F * height}, {0, 0.61F * height}});
+    Outline foot{{0, 0},           {0.048F, 0},      {0.05F, 0.004F},
+                 {0.045F, 0.010F}, {0.014F, 0.018F}, {0.007F, 0.03F}};
+    foot.insert(foot.end(), {{0.006F, 0.55F * height},
+                             {0.013F, 0.58F * height},
+                             {0.022F, 0.6F * height},
+                             {0.022F, 0.61F * height},
+                             {0.0125F, 0.61F * height},
+                             {0, 0.61F * height}});
     Shape shape = tinted(lathe(foot, 24), brass);
-    Outline wax{{0, 0.6F * height}, {0.0105F, 0.6F * height}, {0.01F, 0.985F * height},
-                {0.008F, height}, {0, 0.995F * height}};
+    Outline wax{{0, 0.6F * height},
+                {0.0105F, 0.6F * height},
+                {0.01F, 0.985F * height},
+                {0.008F, height},
+                {0, 0.995F * height}};
     shape.add(tinted(lathe(wax, 16), {0.90F, 0.87F, 0.80F}));
     shape.add(tinted(rod({0, 0.99F * height, 0, 0.0009F}, {0.002F, height + 0.009F, 0, 0.0007F}, 5),
                      {0.12F, 0.11F, 0.10F}));
@@ -264,12 +284,13 @@ Shape basket(float radius, float height) {
     Outline outline{{0, 0}, {wall(0), 0}};
     const int courses = 11;
     for (int i = 0; i < courses; ++i) // each a round strand
-        addArc(outline, {wall(part(i, courses)), height * (part(i, courses) + part(1, 2 * courses))},
+        addArc(outline,
+               {wall(part(i, courses)), height * (part(i, courses) + part(1, 2 * courses))},
                0.46F * height / part(courses, 1), -80, 80, 3);
     addArc(outline, {radius - 0.004F, height}, 0.011F, 0, 180, 6);
-    outline.insert(outline.end(), {{0.95F * radius - 0.012F, 0.7F * height},
-                                   {wall(0) - 0.012F, 0.012F},
-                                   {0, 0.012F}});
+    outline.insert(
+        outline.end(),
+        {{0.95F * radius - 0.012F, 0.7F * height}, {wall(0) - 0.012F, 0.012F}, {0, 0.012F}});
     Shape shape = lathe(outline, 26);
     for (const float side : {-1.0F, 1.0F}) {
         std::vector<glm::vec4> path;
@@ -290,9 +311,11 @@ Shape pillow(glm::vec2 size, float thickness) {
         const auto surface = [&](glm::vec2 uv) {
             const float a = side * (2 * uv.x - 1), b = 2 * uv.y - 1;
             const float pull = 0.10F; // the seams are drawn in between the corners
-            const float x = a * (1 - pull * a * a * (1 - b * b)), y = b * (1 - pull * b * b * (1 - a * a));
+            const float x = a * (1 - pull * a * a * (1 - b * b)),
+                        y = b * (1 - pull * b * b * (1 - a * a));
             const float rim = (1 - a * a) * (1 - b * b);
-            const float crease = 0.05F * noise.value(glm::vec3(3 * a, 3 * b, 5 + side)) * std::min(1.0F, 4 * rim);
+            const float crease =
+                0.05F * noise.value(glm::vec3(3 * a, 3 * b, 5 + side)) * std::min(1.0F, 4 * rim);
             return glm::vec3(size.x * x / 2, size.y * (y + 1) / 2,
                              side * thickness / 2 * (std::pow(rim, 0.45F) + crease));
         };
@@ -319,7 +342,8 @@ Shape throwOver(float across, float width, float leftDrop, float rightDrop) {
         const float s = glm::mix(-total - leftDrop, total + rightDrop, uv.x);
         const glm::vec2 p = profile(s);
         const float hang = std::max(0.0F, std::abs(s) - total);
-        const float fold = 0.5F + 0.5F * std::sin(30 * uv.y + 2 * noise.value(glm::vec3(2 * s, 6 * uv.y, 0)));
+        const float fold =
+            0.5F + 0.5F * std::sin(30 * uv.y + 2 * noise.value(glm::vec3(2 * s, 6 * uv.y, 0)));
         const float out = (s < 0 ? -1.0F : 1.0F) * 0.035F * fold * std::min(1.0F, 5 * hang);
         return glm::vec3(p.x + out, p.y + 0.006F * fold * (hang > 0 ? 0.0F : 1.0F),
                          width * (0.5F - uv.y) * (1 + 0.05F * hang));
@@ -342,12 +366,14 @@ Rug rug(glm::vec2 size) {
     for (const float side : {-1.0F, 1.0F})
         for (int i = 0; i < knots; ++i) {
             const float z = size.y * (part(2 * i + 1, 2 * knots) - 0.5F);
-            const float end = z + between(random, -0.016, 0.016), reach = between(random, 0.05, 0.07);
+            const float end = z + between(random, -0.016, 0.016),
+                        reach = between(random, 0.05, 0.07);
             const float x = side * (size.x / 2 - 0.004F);
-            result.fringe.add(tube(std::array{glm::vec4(x, 0.002F, z, 0.003F),
-                                              glm::vec4(x + side * 0.4F * reach, -0.003F, (z + end) / 2, 0.004F),
-                                              glm::vec4(x + side * reach, -0.005F, end, 0.0025F)},
-                                   5));
+            result.fringe.add(
+                tube(std::array{glm::vec4(x, 0.002F, z, 0.003F),
+                                glm::vec4(x + side * 0.4F * reach, -0.003F, (z + end) / 2, 0.004F),
+                                glm::vec4(x + side * reach, -0.005F, end, 0.0025F)},
+                     5));
         }
     return result;
 }
@@ -355,17 +381,15 @@ Rug rug(glm::vec2 size) {
 Picture picture(glm::vec2 size) {
     const float bar = 0.035F;
     Picture result;
-    const Outline profile{{-bar, 0}, {-bar, 0.010F}, {-bar + 0.006F, 0.014F}, {-0.010F, 0.022F},
-                          {-0.004F, 0.020F}, {0, 0.014F}, {0, -0.012F}};
+    const Outline profile{{-bar, 0},         {-bar, 0.010F},    {-bar + 0.006F, 0.014F},
+                          {-0.010F, 0.022F}, {-0.004F, 0.020F}, {0, 0.014F},
+                          {0, -0.012F}};
     const glm::mat4 upright = glm::rotate(glm::mat4(1), glm::half_pi<float>(), glm::vec3(1, 0, 0));
     Outline turned = profile;
     std::reverse(turned.begin(), turned.end());
     result.frame.add(pillar(turned, size + 2 * bar), upright);
-    result.canvas = patch(
-        [=](glm::vec2 uv) {
-            return glm::vec3(size * (uv - 0.5F), 0.001F);
-        },
-        1, 1, {1, 1});
+    result.canvas =
+        patch([=](glm::vec2 uv) { return glm::vec3(size * (uv - 0.5F), 0.001F); }, 1, 1, {1, 1});
     for (Vertex& vertex : result.canvas.vertices)
         vertex.uv.y = 1 - vertex.uv.y;
     return result;

@@ -24,7 +24,8 @@ Shape candlestick(float height);
 Shape basket(float radius, float height);
 // Full in its middle, thin at its seam; upright, its lower seam at y = 0.
 Shape pillow(glm::vec2 size, float thickness);
-// A cloth thrown over a thing of this width (along x), its top at y = 0; it hangs down on both sides.
+// A cloth thrown over a thing of this width (along x), its top at y = 0; it hangs down on both
+// sides.
 Shape throwOver(float across, float width, float leftDrop, float rightDrop);
 // A rug with a fringe at both ends of x; its texture covers it once.
 struct Rug {

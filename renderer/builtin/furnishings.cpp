@@ -135,7 +135,8 @@ Shape palm(int fronds, float length) {
     Random random(0, "builtin/palm");
     for (int i = 0; i < fronds; ++i) {
         const float inner = part(i, fronds); // the last ones stand upright in the middle
-        const float reach = length * between(random, 0.85, 1.1), lean = glm::mix(0.75F, 0.25F, inner);
+        const float reach = length * between(random, 0.85, 1.1),
+                    lean = glm::mix(0.75F, 0.25F, inner);
         const float droop = between(random, 0.5, 0.9) * (1 - 0.5F * inner), width = 0.17F * length;
         const auto surface = [=](glm::vec2 uv) {
             const float t = uv.y, side = 2 * uv.x - 1;

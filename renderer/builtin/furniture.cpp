@@ -23,9 +23,8 @@ void addWood(Shape& shape, Shape piece, const glm::mat4& place) {
 
 // Thick in its lower middle, thin at the foot.
 Shape turnedLeg(glm::vec3 top, glm::vec3 foot, float radius) {
-    constexpr std::array<glm::vec2, 6> profile{
-        glm::vec2(0, 0.75F), {0.12F, 0.95F}, {0.45F, 1.1F}, {0.62F, 1.0F}, {0.85F, 0.72F},
-        {1, 0.55F}};
+    constexpr std::array<glm::vec2, 6> profile{glm::vec2(0, 0.75F), {0.12F, 0.95F}, {0.45F, 1.1F},
+                                               {0.62F, 1.0F},       {0.85F, 0.72F}, {1, 0.55F}};
     std::vector<glm::vec4> path;
     for (const glm::vec2 point : profile)
         path.emplace_back(glm::mix(top, foot, point.x), radius * point.y);
@@ -51,9 +50,9 @@ void addBack(Shape& shape) {
         const glm::vec3 top = bowPoint(0.12F + 0.76F * (0.55F * part(i, spindles + 1) + 0.45F * t));
         const glm::vec3 foot(0.9F * x, 0.44F, -0.175F + 0.9F * x * x * 0.4F);
         const glm::vec3 middle = glm::mix(foot, top, 0.4F) + glm::vec3(0, 0, 0.012F);
-        shape.add(tube(std::array{glm::vec4(foot, 0.006F), glm::vec4(middle, 0.0085F),
-                                  glm::vec4(top, 0.005F)},
-                       6));
+        shape.add(tube(
+            std::array{glm::vec4(foot, 0.006F), glm::vec4(middle, 0.0085F), glm::vec4(top, 0.005F)},
+            6));
     }
 }
 
@@ -63,10 +62,10 @@ Shape windsorChair() {
     Shape seat = rounded({0.44F, 0.036F, 0.43F}, 0.016F, 4, 2);
     deform(seat, [](glm::vec3 p) { // narrower behind, hollowed for who sits
         const float x = p.x / 0.22F, z = p.z / 0.215F;
-        const float hollow = p.y > 0 ? 0.012F * std::max(0.0F, 1 - x * x) *
-                                           std::max(0.0F, 1 - z * z)
-                                     : 0.0F;
-        return glm::vec3(p.x * (1 + 0.06F * z - 0.05F * z * z), p.y - hollow, p.z * (1 - 0.08F * x * x));
+        const float hollow =
+            p.y > 0 ? 0.012F * std::max(0.0F, 1 - x * x) * std::max(0.0F, 1 - z * z) : 0.0F;
+        return glm::vec3(p.x * (1 + 0.06F * z - 0.05F * z * z), p.y - hollow,
+                         p.z * (1 - 0.08F * x * x));
     });
     Shape shape;
     addWood(shape, seat, at({0, 0.432F, 0}));
@@ -79,7 +78,8 @@ Shape windsorChair() {
     for (const float x : {-0.2F, 0.2F}) {
         for (const float z : {-0.21F, 0.2F})
             shape.add(turnedLeg(leg(x, z)(0.42F), leg(x, z)(0), 0.0165F));
-        shape.add(rod(glm::vec4(leg(x, -0.21F)(0.17F), 0.009F), glm::vec4(leg(x, 0.2F)(0.17F), 0.009F)));
+        shape.add(
+            rod(glm::vec4(leg(x, -0.21F)(0.17F), 0.009F), glm::vec4(leg(x, 0.2F)(0.17F), 0.009F)));
     }
     const glm::vec3 left = glm::mix(leg(-0.2F, -0.21F)(0.17F), leg(-0.2F, 0.2F)(0.17F), 0.5F);
     shape.add(rod(glm::vec4(left, 0.009F), glm::vec4(-left.x, left.y, left.z, 0.009F)));
@@ -94,15 +94,18 @@ Shape table(glm::vec3 size) {
     const glm::vec2 legs(size.x / 2 - inset, size.z / 2 - inset);
     const float apron = 0.075F, under = size.y - top - apron / 2;
     for (const float side : {-1.0F, 1.0F}) {
-        addWood(shape, box({2 * legs.x - 0.04F, apron, 0.02F}, 0.002F), at({0, under, side * legs.y}));
-        addWood(shape, box({0.02F, apron, 2 * legs.y - 0.04F}, 0.002F), at({side * legs.x, under, 0}));
+        addWood(shape, box({2 * legs.x - 0.04F, apron, 0.02F}, 0.002F),
+                at({0, under, side * legs.y}));
+        addWood(shape, box({0.02F, apron, 2 * legs.y - 0.04F}, 0.002F),
+                at({side * legs.x, under, 0}));
         for (const float end : {-1.0F, 1.0F}) {
             const glm::vec3 foot(side * legs.x, 0, end * legs.y);
             const float height = size.y - top;
-            shape.add(tube(std::array{glm::vec4(foot, 0.014F),
-                                      glm::vec4(foot + glm::vec3(0, height - 1.2F * apron, 0), 0.026F),
-                                      glm::vec4(foot + glm::vec3(0, height, 0), 0.027F)},
-                           14));
+            shape.add(
+                tube(std::array{glm::vec4(foot, 0.014F),
+                                glm::vec4(foot + glm::vec3(0, height - 1.2F * apron, 0), 0.026F),
+                                glm::vec4(foot + glm::vec3(0, height, 0), 0.027F)},
+                     14));
         }
     }
     return shape;
@@ -182,7 +185,7 @@ Shelves openShelves(float width, int bays, float depth, std::span<const float> h
     Shelves result;
     for (const float height : heights)
         addWood(result.boards, box({width + 0.04F, boardThickness, depth}, 0.003F),
-                          at({0, height - boardThickness / 2, 0}));
+                at({0, height - boardThickness / 2, 0}));
     for (int i = 0; i <= bays; ++i) {
         const float x = each * part(i, 1) - width / 2;
         for (const float z : {-1.0F, 1.0F})
@@ -210,32 +213,31 @@ Shelves sideboard(glm::vec3 size) {
         addWood(boards, box({size.x, board, size.z}, 0.004F), at({0, y, 0}));
     for (const float side : {-1.0F, 1.0F})
         addWood(boards, box({board, height - 2 * board, size.z - 0.006F}, 0.002F),
-                   at({side * (size.x - board) / 2, legs + height / 2, 0}));
+                at({side * (size.x - board) / 2, legs + height / 2, 0}));
     addWood(boards, box({size.x - 0.01F, height - 0.01F, 0.01F}, 0.001F),
-               at({0, legs + height / 2, 0.01F - size.z / 2}));
+            at({0, legs + height / 2, 0.01F - size.z / 2}));
     const float inside = size.x - 2 * board, third = inside / 3;
     for (int i = 0; i < 3; ++i) {
         const float x = third * (part(i, 1) - 1);
         if (i == 1) { // open, with one shelf
             addWood(boards, box({third - 0.02F, 0.016F, size.z - 0.03F}, 0.002F),
-                       at({x, legs + height / 2, 0}));
+                    at({x, legs + height / 2, 0}));
             for (const float side : {-0.5F, 0.5F})
                 addWood(boards, box({0.016F, height - 2 * board, size.z - 0.02F}, 0.002F),
-                           at({x + side * third, legs + height / 2, 0}));
+                        at({x + side * third, legs + height / 2, 0}));
             continue;
         }
         addWood(boards, box({third - 0.014F, height - 2 * board - 0.006F, 0.018F}, 0.003F),
-                   at({x, legs + height / 2, size.z / 2 - 0.014F}));
+                at({x, legs + height / 2, size.z / 2 - 0.014F}));
         const float knob = x - (x > 0 ? 1.0F : -1.0F) * (third / 2 - 0.05F);
         result.bars.add(rod({knob, legs + height / 2, size.z / 2 - 0.01F, 0.006F},
                             {knob, legs + height / 2, size.z / 2 + 0.02F, 0.011F}, 12));
     }
     for (const float x : {-1.0F, 1.0F})
         for (const float z : {-1.0F, 1.0F})
-            boards.add(rod({x * (size.x / 2 - 0.05F), 0, z * (size.z / 2 - 0.03F), 0.009F},
-                           {x * (size.x / 2 - 0.10F), legs + 0.002F, z * (size.z / 2 - 0.07F),
-                            0.016F},
-                           10));
+            boards.add(rod(
+                {x * (size.x / 2 - 0.05F), 0, z * (size.z / 2 - 0.03F), 0.009F},
+                {x * (size.x / 2 - 0.10F), legs + 0.002F, z * (size.z / 2 - 0.07F), 0.016F}, 10));
     return result;
 }
 
@@ -244,12 +246,8 @@ namespace {
 // Thin cloth round a frame, open above and below; y = 0 is its lower rim.
 Shape shadeShape(float low, float high, float height) {
     const float thin = 0.002F;
-    return lathe({{low - thin, 0},
-                  {low, 0},
-                  {high, height},
-                  {high - thin, height},
-                  {low - thin, 0}},
-                 40);
+    return lathe(
+        {{low - thin, 0}, {low, 0}, {high, height}, {high - thin, height}, {low - thin, 0}}, 40);
 }
 
 // Three wires that hold a shade, and the bulb.
@@ -302,7 +300,8 @@ Lamp pendant(float radius, float drop) {
     outline.push_back(outline.front());
     lamp.shade.add(lathe(outline, 40), at({0, -drop, 0}));
     lamp.shade.add(bulb(), at({0, 0.72F * radius - drop, 0}));
-    lamp.stand.add(rod({0, 0.68F * radius - drop, 0, 0.022F}, {0, 0.85F * radius - drop, 0, 0.016F}, 14));
+    lamp.stand.add(
+        rod({0, 0.68F * radius - drop, 0, 0.022F}, {0, 0.85F * radius - drop, 0, 0.016F}, 14));
     lamp.stand.add(rod({0, 0.8F * radius - drop, 0, 0.003F}, {0, 0, 0, 0.003F}, 6));
     lamp.stand.add(lathe({{0, -0.03F}, {0.04F, -0.03F}, {0.05F, -0.02F}, {0.05F, 0}}, 20));
     return lamp;

@@ -10,11 +10,13 @@ namespace obscura::builtin {
 Painter bark() {
     return [noise = Noise("builtin/bark")](glm::vec2 uv) {
         const float bent = noise.clouds(uv * 8.0F, 8, 3);
-        const float crack = std::abs(noise.clouds(glm::vec2(uv.x * 8, uv.y * 32 + 3 * bent), 32, 3));
+        const float crack =
+            std::abs(noise.clouds(glm::vec2(uv.x * 8, uv.y * 32 + 3 * bent), 32, 3));
         const float ridge = ramp(0.02F, 0.22F, crack);
         const float moss = ramp(0.1F, 0.4F, noise.clouds(uv * 4.0F + 3.0F, 4, 4));
         Texel texel;
-        texel.colour = glm::mix(glm::vec3(0.22F, 0.18F, 0.15F), glm::vec3(0.50F, 0.44F, 0.37F), ridge);
+        texel.colour =
+            glm::mix(glm::vec3(0.22F, 0.18F, 0.15F), glm::vec3(0.50F, 0.44F, 0.37F), ridge);
         texel.colour = glm::mix(texel.colour, glm::vec3(0.38F, 0.42F, 0.28F), 0.4F * moss);
         texel.height = 0.008F * ridge;
         return texel;
@@ -36,7 +38,8 @@ Painter earth() {
 
 Painter turf() {
     return [noise = Noise("builtin/turf")](glm::vec2 uv) {
-        const float blades = noise.clouds(uv * 128.0F, 128, 2), cloud = noise.clouds(uv * 4.0F, 4, 4);
+        const float blades = noise.clouds(uv * 128.0F, 128, 2),
+                    cloud = noise.clouds(uv * 4.0F, 4, 4);
         const float bare = ramp(0.15F, 0.45F, noise.clouds(uv * 16.0F + 5.0F, 16, 3));
         Texel texel;
         texel.colour = glm::mix(glm::vec3(0.16F, 0.24F, 0.08F), glm::vec3(0.38F, 0.45F, 0.18F),
@@ -83,7 +86,7 @@ Painter twig(int pairs, float width, glm::vec3 dark, glm::vec3 light) {
             const bool tip = i == 2 * pairs;
             const float side = tip ? 0.0F : (i % 2 == 0 ? -1.0F : 1.0F);
             const float t = (static_cast<float>(i) + 0.4F) / static_cast<float>(2 * pairs + 1);
-            const float length = tip ? 0.36F : 0.46F - 0.08F * t;
+            const float length = tip ? 0.34F : 0.40F - 0.06F * t;
             const float open = side * (1.05F - 0.35F * t + 0.2F * (noise.cell(i, 5) - 0.5F));
             const Leaf leaf{{0, tip ? 0.62F : 0.04F + 0.66F * t},
                             {std::sin(open), std::cos(open)},
@@ -93,8 +96,8 @@ Painter twig(int pairs, float width, glm::vec3 dark, glm::vec3 light) {
             if (inside < 0)
                 continue;
             const float vein = inside > 0.9F ? 1.0F : 0.0F;
-            texel.colour = glm::mix(dark, light, 0.25F + 0.5F * noise.cell(i, 7) + 0.4F * tone +
-                                                     0.25F * vein) *
+            texel.colour = glm::mix(dark, light,
+                                    0.25F + 0.5F * noise.cell(i, 7) + 0.4F * tone + 0.25F * vein) *
                            (0.85F + 0.15F * inside);
             texel.alpha = 1;
         }
@@ -107,7 +110,8 @@ Painter ivy() {
         const glm::vec2 p = uv - glm::vec2(0.5F, 0.42F);
         const float angle = std::atan2(p.x, p.y), lobes = 0.5F + 0.5F * std::cos(5 * angle);
         const float notch = ramp(0.5F, 0.0F, glm::pi<float>() - std::abs(angle));
-        const float edge = (0.29F + 0.17F * lobes * (1 - 0.4F * std::abs(std::sin(angle / 2)))) * (1 - 0.6F * notch) +
+        const float edge = (0.29F + 0.17F * lobes * (1 - 0.4F * std::abs(std::sin(angle / 2)))) *
+                               (1 - 0.6F * notch) +
                            0.10F * ramp(0.6F, 0, std::abs(angle));
         const float r = glm::length(p);
         const bool stalk = std::abs(p.x) < 0.015F && p.y < 0;
@@ -130,14 +134,16 @@ Painter lavender() {
             const float t = (uv.y - 0.62F) / 0.365F;
             const float whorl = std::abs(std::sin(glm::pi<float>() * 5 * t));
             if (x < (0.05F + 0.17F * whorl) * (1.1F - 0.6F * t)) {
-                texel.colour = glm::mix(glm::vec3(0.33F, 0.24F, 0.50F), glm::vec3(0.62F, 0.50F, 0.78F),
-                                        0.45F + tone);
+                texel.colour = glm::mix(glm::vec3(0.33F, 0.24F, 0.50F),
+                                        glm::vec3(0.62F, 0.50F, 0.78F), 0.45F + tone);
                 texel.alpha = 1;
             }
         } else if (uv.y < 0.4F) { // narrow leaves
             const float row = glm::fract(uv.y * 9 - 2.4F * x);
-            if (std::abs(row - 0.5F) < 0.22F && x < 0.36F * ramp(0.0F, 0.1F, uv.y) * ramp(0.42F, 0.2F, uv.y)) {
-                texel.colour = glm::mix(glm::vec3(0.36F, 0.44F, 0.33F), glm::vec3(0.56F, 0.62F, 0.48F), 0.5F + tone);
+            if (std::abs(row - 0.5F) < 0.22F &&
+                x < 0.36F * ramp(0.0F, 0.1F, uv.y) * ramp(0.42F, 0.2F, uv.y)) {
+                texel.colour = glm::mix(glm::vec3(0.36F, 0.44F, 0.33F),
+                                        glm::vec3(0.56F, 0.62F, 0.48F), 0.5F + tone);
                 texel.alpha = 1;
             }
         }

@@ -67,8 +67,7 @@ Shape architrave(glm::vec2 size, bool below) {
 Shape panelDoor(glm::vec2 size) {
     const float thick = 0.04F, rail = 0.11F;
     Shape shape;
-    shape.add(box({size.x - 0.01F, size.y - 0.01F, 0.6F * thick}, 0.002F),
-              at({0, size.y / 2, 0}));
+    shape.add(box({size.x - 0.01F, size.y - 0.01F, 0.6F * thick}, 0.002F), at({0, size.y / 2, 0}));
     const std::array<float, 3> heights{0.0F, 0.42F * size.y, size.y};
     for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
         const glm::vec2 low(-size.x / 2, heights[i]), high(size.x / 2, heights[i + 1]);
@@ -115,11 +114,10 @@ Shape ironFence(float length, float height, float gap) {
     const int bars = static_cast<int>(std::lround(length / gap));
     for (int i = 0; i <= bars; ++i) {
         const float x = length * (part(i, bars) - 0.5F) * (1 - 0.016F / length);
-        shape.add(tube(std::array{glm::vec4(x, 0.03F, 0, 0.008F),
-                                  glm::vec4(x, height - 0.07F, 0, 0.008F),
-                                  glm::vec4(x, height - 0.055F, 0, 0.016F),
-                                  glm::vec4(x, height, 0, 0.001F)},
-                       6));
+        shape.add(tube(
+            std::array{glm::vec4(x, 0.03F, 0, 0.008F), glm::vec4(x, height - 0.07F, 0, 0.008F),
+                       glm::vec4(x, height - 0.055F, 0, 0.016F), glm::vec4(x, height, 0, 0.001F)},
+            6));
     }
     return shape;
 }
@@ -142,12 +140,15 @@ Shape trellis(glm::vec2 size) {
 }
 
 Shape wateringCan() {
-    Outline body{{0, 0}, {0.085F, 0}, {0.09F, 0.004F}, {0.09F, 0.20F}, {0.08F, 0.225F}, {0.055F, 0.235F}};
-    body.insert(body.end(), {{0.052F, 0.232F}, {0.052F, 0.22F}, {0.084F, 0.2F}, {0.084F, 0.01F}, {0, 0.01F}});
+    Outline body{{0, 0},         {0.085F, 0},     {0.09F, 0.004F},
+                 {0.09F, 0.20F}, {0.08F, 0.225F}, {0.055F, 0.235F}};
+    body.insert(body.end(),
+                {{0.052F, 0.232F}, {0.052F, 0.22F}, {0.084F, 0.2F}, {0.084F, 0.01F}, {0, 0.01F}});
     Shape shape = lathe(body, 28);
-    shape.add(tube(std::array{glm::vec4(0.07F, 0.05F, 0, 0.022F), glm::vec4(0.16F, 0.13F, 0, 0.016F),
-                              glm::vec4(0.27F, 0.26F, 0, 0.011F)},
-                   12));
+    shape.add(
+        tube(std::array{glm::vec4(0.07F, 0.05F, 0, 0.022F), glm::vec4(0.16F, 0.13F, 0, 0.016F),
+                        glm::vec4(0.27F, 0.26F, 0, 0.011F)},
+             12));
     shape.add(rod({0.262F, 0.25F, 0, 0.012F}, {0.295F, 0.289F, 0, 0.034F}, 16)); // the rose
     const auto handle = [&](glm::vec2 from, glm::vec2 over, glm::vec2 to) {
         std::vector<glm::vec4> path;
@@ -173,7 +174,8 @@ Bench gardenBench(float width) {
         bench.wood.add(board, glm::rotate(at(place), glm::radians(degrees), glm::vec3(1, 0, 0)));
     };
     for (int i = 0; i < 6; ++i) // the seat, hollow in the middle
-        slat({0, 0.445F - 0.02F * std::sin(glm::pi<float>() * part(i, 5)), 0.20F - 0.078F * part(i, 1)},
+        slat({0, 0.445F - 0.02F * std::sin(glm::pi<float>() * part(i, 5)),
+              0.20F - 0.078F * part(i, 1)},
              90 + 8 * (2 * part(i, 5) - 1), 0.066F);
     for (int i = 0; i < 5; ++i)
         slat({0, 0.54F + 0.085F * part(i, 1), -0.225F - 0.020F * part(i, 1)}, -13, 0.07F);
@@ -185,14 +187,28 @@ Bench gardenBench(float width) {
                 path.emplace_back(x, p.y, p.x, radius);
             bench.iron.add(tube(path, 8));
         };
-        iron({{0.27F, 0.0F}, {0.225F, 0.1F}, {0.2F, 0.25F}, {0.215F, 0.36F}, {0.2F, 0.415F},
-              {0.1F, 0.405F}, {0.0F, 0.398F}, {-0.1F, 0.405F}, {-0.2F, 0.42F}, {-0.235F, 0.5F},
-              {-0.27F, 0.68F}, {-0.325F, 0.93F}, {-0.345F, 0.95F}},
+        iron({{0.27F, 0.0F},
+              {0.225F, 0.1F},
+              {0.2F, 0.25F},
+              {0.215F, 0.36F},
+              {0.2F, 0.415F},
+              {0.1F, 0.405F},
+              {0.0F, 0.398F},
+              {-0.1F, 0.405F},
+              {-0.2F, 0.42F},
+              {-0.235F, 0.5F},
+              {-0.27F, 0.68F},
+              {-0.325F, 0.93F},
+              {-0.345F, 0.95F}},
              0.014F);
         iron({{-0.32F, 0.0F}, {-0.26F, 0.12F}, {-0.22F, 0.27F}, {-0.21F, 0.42F}}, 0.014F);
         iron({{0.21F, 0.22F}, {0.08F, 0.28F}, {-0.08F, 0.28F}, {-0.225F, 0.22F}}, 0.009F);
         if (side != 0)
-            iron({{0.205F, 0.40F}, {0.24F, 0.52F}, {0.215F, 0.62F}, {0.1F, 0.65F}, {-0.1F, 0.645F},
+            iron({{0.205F, 0.40F},
+                  {0.24F, 0.52F},
+                  {0.215F, 0.62F},
+                  {0.1F, 0.65F},
+                  {-0.1F, 0.645F},
                   {-0.275F, 0.66F}},
                  0.012F);
     }

@@ -86,29 +86,31 @@ class Growth {
         const int steps = branch.radius > 0.02F ? 5 : 3;
         for (int i = 0; i <= steps; ++i) {
             path.emplace_back(p, branch.radius * (1 - 0.55F * part(i, steps)));
-            direction = glm::normalize(direction + 0.16F * anyDirection(random_) +
-                                       glm::vec3(0, 0.07F, 0));
+            direction =
+                glm::normalize(direction + 0.16F * anyDirection(random_) + glm::vec3(0, 0.07F, 0));
             p += direction * branch.length / part(steps, 1);
         }
         return path;
     }
 
     static glm::vec3 at(std::span<const glm::vec4> path, float t) {
-        const float place = std::clamp(t, 0.0F, 0.999F) * part(static_cast<int>(path.size()) - 1, 1);
+        const float place =
+            std::clamp(t, 0.0F, 0.999F) * part(static_cast<int>(path.size()) - 1, 1);
         const auto i = static_cast<std::size_t>(place);
         return glm::mix(glm::vec3(path[i]), glm::vec3(path[i + 1]), place - std::floor(place));
     }
 
     void addLeaves(std::span<const glm::vec4> path) {
-        const int count = 9;
+        const int count = 11;
         for (int i = 0; i < count; ++i) {
             const float t = glm::mix(0.1F, 1.0F, part(i, count - 1));
             const glm::vec3 axis = glm::normalize(at(path, t) - at(path, t - 0.2F));
-            const glm::vec3 away = glm::normalize(axis * 0.8F + anyDirection(random_) + glm::vec3(0, -0.15F, 0));
+            const glm::vec3 away =
+                glm::normalize(axis * 0.8F + anyDirection(random_) + glm::vec3(0, -0.15F, 0));
             const float size = leaf_ * between(random_, 0.8, 1.2);
-            addCard(tree_.leaves, {at(path, t), size * away,
-                                   glm::vec3(0, 1, 0) + 0.6F * anyDirection(random_), 0.8F * size,
-                                   between(random_, 0.05, 0.3)});
+            addCard(tree_.leaves,
+                    {at(path, t), size * away, glm::vec3(0, 1, 0) + 0.6F * anyDirection(random_),
+                     0.8F * size, between(random_, 0.05, 0.3)});
         }
     }
 
@@ -129,11 +131,12 @@ Tree tree(float height, Random& random) {
         const float turn = glm::two_pi<float>() * part(i, 5) + 0.4F;
         const glm::vec3 out(std::sin(turn), 0, std::cos(turn));
         const float r = 0.034F * height;
-        result.wood.add(tube(std::array{glm::vec4(0.2F * r * out + glm::vec3(0, 2.2F * r, 0), 0.6F * r),
-                                        glm::vec4(0.8F * r * out + glm::vec3(0, 0.8F * r, 0), 0.55F * r),
-                                        glm::vec4(1.9F * r * out + glm::vec3(0, 0.05F * r, 0), 0.4F * r),
-                                        glm::vec4(3.2F * r * out + glm::vec3(0, -0.4F * r, 0), 0.2F * r)},
-                             8));
+        result.wood.add(
+            tube(std::array{glm::vec4(0.2F * r * out + glm::vec3(0, 2.2F * r, 0), 0.6F * r),
+                            glm::vec4(0.8F * r * out + glm::vec3(0, 0.8F * r, 0), 0.55F * r),
+                            glm::vec4(1.9F * r * out + glm::vec3(0, 0.05F * r, 0), 0.4F * r),
+                            glm::vec4(3.2F * r * out + glm::vec3(0, -0.4F * r, 0), 0.2F * r)},
+                 8));
     }
     return result;
 }
@@ -158,10 +161,12 @@ namespace {
 
 // Twigs that stand out from a surface.
 void addTwig(Shape& leaves, glm::vec3 p, glm::vec3 normal, Random& random) {
-    const glm::vec3 along = glm::normalize(normal + 0.9F * anyDirection(random) + glm::vec3(0, 0.3F, 0));
+    const glm::vec3 along =
+        glm::normalize(normal + 0.9F * anyDirection(random) + glm::vec3(0, 0.3F, 0));
     const float size = between(random, 0.09, 0.15);
-    addCard(leaves, {p - 0.07F * normal, size * along, normal + 0.8F * anyDirection(random),
-                     0.75F * size, between(random, -0.1, 0.3)},
+    addCard(leaves,
+            {p - 0.07F * normal, size * along, normal + 0.8F * anyDirection(random), 0.75F * size,
+             between(random, -0.1, 0.3)},
             1, 1);
 }
 
@@ -173,8 +178,8 @@ Hedge hedge(glm::vec3 size, int leavesPerSquareMetre, Random& random) {
     Shape core = rounded(size - 0.12F, 0.06F, 12);
     const Noise noise("builtin/hedge");
     const auto bulge = [&](glm::vec3 p) { return 0.035F * noise.value(2.5F * p); };
-    deform(core, [&](glm::vec3 p) { return p * (1 + bulge(p)); });
-    result.core.add(core, at({0, half.y, 0}));
+    deform(core, [&](glm::vec3 p) { return p + p / half * bulge(p); });
+    result.core.add(tinted(core, glm::vec3(0.5F)), at({0, half.y, 0}));
     for (int axis = 0; axis < 3; ++axis)
         for (const float side : {-1.0F, 1.0F}) {
             if (axis > 0 && side < 0)
@@ -199,7 +204,7 @@ Hedge topiary(float radius, Random& random) {
     Outline outline{{0, -0.86F * radius}};
     addArc(outline, {0, 0}, 0.86F * radius, -75, 75, 9);
     outline.emplace_back(0, 0.86F * radius);
-    result.core = lathe(outline, 20);
+    result.core = tinted(lathe(outline, 20), glm::vec3(0.5F));
     const int count = static_cast<int>(4 * glm::pi<float>() * radius * radius * 420);
     for (int i = 0; i < count; ++i) {
         const glm::vec3 normal = anyDirection(random);
@@ -221,9 +226,10 @@ Shape climber(glm::vec2 low, glm::vec2 high, int leavesPerSquareMetre,
         const float leaf = between(random, 0.05, 0.095);
         const float tilt = between(random, 0.1, 0.9), turn = between(random, -0.8, 0.8);
         const glm::vec3 along(std::sin(turn), -std::cos(turn), tilt); // hangs down and outwards
-        addCard(shape, {glm::vec3(p, between(random, 0.008, 0.02 + 0.12 * thick)),
-                        leaf * glm::normalize(along), glm::vec3(between(random, -0.4, 0.4), 0.4F, 1),
-                        leaf, 0.15F},
+        addCard(shape,
+                {glm::vec3(p, between(random, 0.008, 0.02 + 0.12 * thick)),
+                 leaf * glm::normalize(along), glm::vec3(between(random, -0.4, 0.4), 0.4F, 1), leaf,
+                 0.15F},
                 2, 1);
     }
     return shape;
@@ -237,9 +243,10 @@ Shape tuft(int stalks, float height, float spread, Random& random) {
         const glm::vec3 away(std::sin(turn), 0, std::cos(turn));
         const float size = height * between(random, 0.75, 1.1);
         const glm::vec3 along = size * glm::normalize(glm::vec3(0, 1, 0) + spread * out * away);
-        addCard(shape, {0.05F * out * away - glm::vec3(0, 0.01F, 0), along,
-                        glm::vec3(0, 0.2F, 0) + (i % 2 == 0 ? away : anyDirection(random)), 0.28F * size,
-                        -0.1F * spread},
+        addCard(shape,
+                {0.05F * out * away - glm::vec3(0, 0.01F, 0), along,
+                 glm::vec3(0, 0.2F, 0) + (i % 2 == 0 ? away : anyDirection(random)), 0.28F * size,
+                 -0.1F * spread},
                 1, 3);
     }
     return shape;
@@ -250,16 +257,21 @@ namespace {
 // Two triangles and a tip, bent towards `lean`.
 void addBlade(Shape& shape, glm::vec3 foot, glm::vec3 lean, float height, float width,
               glm::vec3 colour) {
-    const glm::vec3 side = 0.5F * width * glm::normalize(glm::vec3(lean.z, 0, -lean.x));
+    // Its upper side is the front.
+    const glm::vec3 side = 0.5F * width * glm::normalize(glm::vec3(-lean.z, 0, lean.x));
     const glm::vec3 middle = foot + height * (glm::vec3(0, 0.6F, 0) + 0.4F * lean);
     const glm::vec3 tip = foot + height * (glm::vec3(0, 1 - 0.35F * glm::length(lean), 0) + lean);
     const auto first = static_cast<std::uint32_t>(shape.vertices.size());
     const auto put = [&](glm::vec3 p, glm::vec3 up, float light) {
-        shape.vertices.push_back({p, glm::normalize(glm::cross(side, up)), {}, {p.x, p.z}, {},
+        shape.vertices.push_back({p,
+                                  glm::normalize(glm::cross(side, up)),
+                                  {},
+                                  {p.x, p.z},
+                                  {},
                                   glm::vec4(light * colour, 1)});
     };
-    put(foot - side, middle - foot, 0.6F);
-    put(foot + side, middle - foot, 0.6F);
+    put(foot - side, middle - foot, 0.65F);
+    put(foot + side, middle - foot, 0.65F);
     put(middle - 0.8F * side, tip - foot, 0.85F);
     put(middle + 0.8F * side, tip - foot, 0.85F);
     put(tip, tip - middle, 1.15F);
@@ -278,12 +290,14 @@ Shape lawn(glm::vec2 low, glm::vec2 high, int bladesPerSquareMetre,
     for (int i = 0; i < count; ++i) {
         const glm::vec2 p = low + size * glm::vec2{between(random, 0, 1), between(random, 0, 1)};
         const float height = grows(p) * between(random, 0.6, 1.25);
-        const float turn = between(random, 0, glm::two_pi<double>()), lean = between(random, 0.15, 0.95);
-        const glm::vec3 colour = glm::mix(glm::vec3(0.13F, 0.24F, 0.04F), glm::vec3(0.34F, 0.42F, 0.12F),
-                                          between(random, 0, 1));
+        const float turn = between(random, 0, glm::two_pi<double>()),
+                    lean = between(random, 0.1, 0.6);
+        const glm::vec3 colour = glm::mix(glm::vec3(0.13F, 0.24F, 0.04F),
+                                          glm::vec3(0.34F, 0.42F, 0.12F), between(random, 0, 1));
         if (height > 0.005F)
-            addBlade(shape, {p.x, -0.004F, p.y}, lean * glm::vec3(std::sin(turn), 0, std::cos(turn)),
-                     height, between(random, 0.005, 0.010), colour);
+            addBlade(shape, {p.x, -0.004F, p.y},
+                     lean * glm::vec3(std::sin(turn), 0, std::cos(turn)), height,
+                     between(random, 0.005, 0.010), colour);
     }
     return shape;
 }

@@ -5,8 +5,8 @@
 
 #include <functional>
 
-// What grows in the garden. Leaves are cards for a texture that is cut out by alpha: it runs along v
-// from where the leaf or twig begins to its tip. Metres; stands on y = 0.
+// What grows in the garden. Leaves are cards for a texture that is cut out by alpha: it runs along
+// v from where the leaf or twig begins to its tip. Metres; stands on y = 0.
 namespace obscura::builtin {
 
 // One bent card: `along` from its foot to its tip, facing `out`.

@@ -14,7 +14,7 @@ struct Wood {
 Wood woodAt(glm::vec2 uv, int board, const Noise& noise) {
     const float other = 40 * noise.cell(board, 3);
     const float bend = noise.clouds(uv * glm::vec2(2, 4) + other, 4, 3);
-    const float year = noise.value(glm::vec2(uv.x * 2 + other, uv.y * 32 + 7 * bend), 32);
+    const float year = noise.value(glm::vec2(uv.x * 2 + other, uv.y * 32 + 3.5F * bend), 32);
     const float fibre = noise.clouds(glm::vec2(uv.x * 8, uv.y * 256), 256, 2);
     return {year, fibre};
 }
@@ -101,7 +101,8 @@ Painter rugPattern() {
         if (band(0.015F, 0.13F)) {
             const float wave = std::abs(glm::fract(along * 12) - 0.5F) * 0.16F + 0.03F;
             colour = std::abs(edge - wave) < 0.009F ? gold : dark;
-            const float stud = glm::length(glm::vec2((glm::fract(along * 12) - 0.5F) / 12, edge - 0.08F));
+            const float stud =
+                glm::length(glm::vec2((glm::fract(along * 12) - 0.5F) / 12, edge - 0.08F));
             if (stud < 0.016F)
                 colour = pale;
         }
@@ -126,10 +127,12 @@ Painter painting() {
         const float sun = glm::length((uv - glm::vec2(0.66F, 0.42F)) * glm::vec2(1.3F, 1));
         colour = glm::mix(colour, glm::vec3(0.98F, 0.88F, 0.68F), ramp(0.075F, 0.065F, sun));
         for (int i = 0; i < 5; ++i) {
-            const float line = 0.46F + 0.11F * static_cast<float>(i) +
-                               0.12F * noise.clouds(glm::vec2(uv.x * 4, static_cast<float>(9 * i)), 4, 4);
-            const glm::vec3 hill = glm::mix(glm::vec3(0.62F, 0.62F, 0.60F), glm::vec3(0.13F, 0.19F, 0.18F),
-                                            static_cast<float>(i) / 4);
+            const float line =
+                0.46F + 0.11F * static_cast<float>(i) +
+                0.12F * noise.clouds(glm::vec2(uv.x * 4, static_cast<float>(9 * i)), 4, 4);
+            const glm::vec3 hill =
+                glm::mix(glm::vec3(0.62F, 0.62F, 0.60F), glm::vec3(0.13F, 0.19F, 0.18F),
+                         static_cast<float>(i) / 4);
             colour = glm::mix(colour, hill, ramp(line - 0.004F, line + 0.004F, uv.y));
         }
         Texel texel;

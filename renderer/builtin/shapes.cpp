@@ -274,8 +274,7 @@ namespace {
 std::vector<float> gridLines(float half, float radius, int cells, int arc) {
     std::vector<float> lines;
     for (int i = arc; i > 0; --i)
-        lines.push_back(radius - half -
-                        radius * std::tan(glm::quarter_pi<float>() * part(i, arc)));
+        lines.push_back(radius - half - radius * std::tan(glm::quarter_pi<float>() * part(i, arc)));
     for (int i = 0; i <= cells; ++i)
         lines.push_back((half - radius) * (2 * part(i, cells) - 1));
     for (int i = arc; i > 0; --i)

@@ -79,8 +79,8 @@ Shape rod(glm::vec4 from, glm::vec4 to, int sides = 8); // a straight one
 
 // Centred, with chamfered edges that are shaded as if round.
 Shape box(glm::vec3 size, float bevel);
-// Centred, with round edges and corners, each edge bent in 2 x `arc` steps; `cells` across each flat
-// part, for what is deformed later.
+// Centred, with round edges and corners, each edge bent in 2 x `arc` steps; `cells` across each
+// flat part, for what is deformed later.
 Shape rounded(glm::vec3 size, float radius, int cells = 1, int arc = 3);
 
 // Moves each vertex, and turns its normal as the mapping turns the surface there.

@@ -143,9 +143,9 @@ void addEnd(Shape& shape, const Station& station, glm::vec3 direction, int sides
     const auto first = static_cast<std::uint32_t>(shape.vertices.size());
     for (int i = 0; i < sides; ++i) {
         const float angle = glm::two_pi<float>() * part(i, sides);
-        const glm::vec3 out =
-            std::cos(angle) * station.across + std::sin(angle) * station.up;
-        const glm::vec2 flat = glm::length(station.across) * glm::vec2(std::cos(angle), std::sin(angle));
+        const glm::vec3 out = std::cos(angle) * station.across + std::sin(angle) * station.up;
+        const glm::vec2 flat =
+            glm::length(station.across) * glm::vec2(std::cos(angle), std::sin(angle));
         shape.vertices.push_back({station.origin + out, direction, {}, flat});
     }
     const bool ahead = glm::dot(glm::cross(station.across, station.up), direction) > 0;
@@ -180,8 +180,6 @@ Shape tube(std::span<const glm::vec4> path, int sides) {
     return shape;
 }
 
-Shape rod(glm::vec4 from, glm::vec4 to, int sides) {
-    return tube(std::array{from, to}, sides);
-}
+Shape rod(glm::vec4 from, glm::vec4 to, int sides) { return tube(std::array{from, to}, sides); }
 
 } // namespace obscura::builtin

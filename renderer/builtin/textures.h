@@ -57,8 +57,8 @@ Painter turf();   // 2 m: what is seen between blades of grass
 // A twig along v, cut out by alpha: so many pairs of leaves and one at its tip, of this width to
 // length.
 Painter twig(int pairs, float width, glm::vec3 dark, glm::vec3 light);
-Painter ivy();             // one lobed leaf along v, cut out by alpha
-Painter lavender();        // one stalk along v with its flower, cut out by alpha
-Painter reed();            // a narrow leaf along v, cut out by alpha
+Painter ivy();      // one lobed leaf along v, cut out by alpha
+Painter lavender(); // one stalk along v with its flower, cut out by alpha
+Painter reed();     // a narrow leaf along v, cut out by alpha
 
 } // namespace obscura::builtin
