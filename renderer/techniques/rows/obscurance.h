@@ -104,7 +104,9 @@ constexpr Parameter alchemyFormOneParameters[] = {samples(12, "McGuire et al. 20
 constexpr Parameter alchemyCs562Parameters[] = {
     samples(18, "ours: the spiral's nine directions twice"),
     radius,
-    depthBias,
+    {"bias", Unit::ratio,
+     "height above the pixel's plane, as a part of the tap's depth, that does not occlude", 0.001f,
+     0, 1, "Kim 2022"},
     falloffStart,
     bilateral,
     blurRadius,
