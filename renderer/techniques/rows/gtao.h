@@ -33,6 +33,15 @@ constexpr Parameter denoise{
     "denoise", Unit::count, "passes of the edge-aware 3 x 3 filter: 1 sharp, 2 medium, 3 soft",   2,
     0,         3,           "ours: XeGTAO's 1 counts on temporal accumulation, which we have not"};
 
+constexpr Parameter layersOfDepth{
+    "layers",
+    Unit::count,
+    "of depth that each tap reads: what is seen, and what lies behind it",
+    1,
+    1,
+    3,
+    "neither paper peels"};
+
 constexpr Parameter adaptive{
     "adaptive",
     Unit::flag,
@@ -71,6 +80,8 @@ constexpr Parameter gtaoParameters[] = {
      0, 0, 1, "XeGTAO, off"},
     samplePower,
     levelOffset,
+    layersOfDepth,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
     adaptive,
     adaptiveRange,
     denoise,
@@ -88,6 +99,8 @@ constexpr Parameter bitmaskParameters[] = {
      0.5f, 1e-3f, 1e6f, "Bevy: 0.25 m at our radius of 0.5 m"},
     samplePower,
     levelOffset,
+    layersOfDepth,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
     adaptive,
     adaptiveRange,
     denoise,
@@ -102,22 +115,23 @@ constexpr Pass depthLevelsPass{.name = "depths",
                                .work = Work::prepare,
                                .fetches = one,
                                .levelFetches = [](const Settings&) { return 4.0; }};
-constexpr Pass surveyPass{.name = "survey",
-                          .format = Format::r16f,
-                          .enabledBy = "adaptive",
-                          .scale = 4,
-                          .work = Work::prepare,
-                          .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"]; }};
+constexpr Pass surveyPass{
+    .name = "survey",
+    .format = Format::r16f,
+    .enabledBy = "adaptive",
+    .scale = 4,
+    .work = Work::prepare,
+    .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"] * s["layers"]; }};
 constexpr Pass countsPass{.name = "counts",
                           .format = Format::r16f,
                           .enabledBy = "adaptive",
                           .scale = 4,
                           .work = Work::prepare,
                           .fetches = [](const Settings&) { return 9.0; }};
-// Fetches depth and normal of the pixel and how many slices it gets, and the depth of each tap
+// Fetches depth and normal of the pixel and how many slices it gets, and the depths of each tap
 // along both sides of each slice.
 constexpr Fetches slicesTaps = [](const Settings& s) {
-    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"];
+    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"] * s["layers"];
 };
 constexpr Pass edgesPass{.name = "edges",
                          .format = Format::rgba8,
@@ -179,7 +193,7 @@ constexpr Technique gtao{"gtao",
                          "Ground-truth AO (XeGTAO)",
                          "Jimenez, Wu, Pesce and Jarabo 2016; parameters of XeGTAO 1.30 (Strugar "
                          "and McCalla 2021)",
-                         normals | light,
+                         normals | light | layers,
                          nullptr,
                          gtaoParameters,
                          gtaoPasses,
@@ -188,7 +202,7 @@ constexpr Technique visibilityBitmask{
     "visibility_bitmask",
     "Visibility bitmask 2023",
     "Therrien, Levesque and Gilet 2023, with cosine-weighted sectors",
-    normals,
+    normals | layers,
     nullptr,
     bitmaskParameters,
     bitmaskPasses,
