@@ -88,8 +88,8 @@ const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& p
         return {*seen.light, subject_.lighting()};
     };
     bindFrame(seen.frameBlock);
-    return passes.visibility({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres())},
-                             issued);
+    return passes.visibility(
+        {seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()), subject_.peel()}, issued);
 }
 
 Image Probe::visibility(const Settings& settings) const {

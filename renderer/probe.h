@@ -21,6 +21,7 @@ class Subject {
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
     const SceneSpheres& spheres() const { return spheres_; }
+    Peel peel() const { return peelOf(pass_, scene_); }
 
   private:
     SceneSpheres spheres_;

@@ -27,6 +27,10 @@ bool widened(const Settings& settings, const Pass& pass) {
     return !pass.widenedBy.empty() && settings[pass.widenedBy] > 0;
 }
 
+int layerUnit(const Technique& technique, int further) {
+    return resultUnit + static_cast<int>(technique.passes.size()) + further;
+}
+
 bool computes(const Pass& pass) {
     return pass.stage == Stage::rows || pass.stage == Stage::columns;
 }
@@ -118,6 +122,10 @@ std::string declareInputs(const Settings& settings) {
         text += fmt::format("layout(binding = {}) uniform sampler2D ambientLight;\n", ambientUnit);
         text += fmt::format("layout(binding = {}) uniform sampler2D directLight;\n", directUnit);
     }
+    if (technique.reads & layers)
+        for (int further = 0; further < 2; ++further)
+            text += fmt::format("layout(binding = {}) uniform sampler2D {}Depth;\n",
+                                layerUnit(technique, further), further == 0 ? "second" : "third");
     if (technique.points)
         text += declarePoints(technique.points(settings));
     // The results of all passes are declared, because the file's other functions must compile too.
@@ -230,7 +238,8 @@ gl::Program passProgram(const Settings& settings, const Pass& pass, int level, W
 double occlusionBytes(const Settings& settings, int width, int height) {
     const int factor = downscaleOf(settings);
     const auto smaller = [](int size, int scale) { return (size + scale - 1) / scale; };
-    double bytes = 0;
+    double bytes = 1.0 * smaller(width, factor) * smaller(height, factor) *
+                   FurtherLayers::bytesPerPixel(furtherLayers(settings));
     for (const Pass* pass : enabledPasses(settings)) {
         const int across = smaller(smaller(width, factor), pass->scale),
                   down = smaller(smaller(height, factor), pass->scale);
@@ -276,7 +285,7 @@ gl::SlicedTarget targetOf(const Settings& settings, const Pass& pass, int width,
 } // namespace
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
-    : settings_(settings), block_(settingsBlock(settings)),
+    : layers_(furtherLayers(settings), 1, 1), settings_(settings), block_(settingsBlock(settings)),
       open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
     if (const int factor = downscaleOf(settings); factor > 1) {
@@ -289,6 +298,7 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     int unit = resultUnit;
     for (const Pass& pass : technique.passes) {
         const int own = unit++;
@@ -309,6 +319,7 @@ void OcclusionPasses::resize(int width, int height) {
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     for (Step& step : steps_)
         step.target = targetOf(settings_, *step.pass, width, height);
 }
@@ -320,6 +331,14 @@ void OcclusionPasses::set(const Settings& settings) {
     settings_ = settings;
     block_ = settingsBlock(settings);
     points_ = pointsOf(settings);
+}
+
+// In the frame that the passes work in.
+void OcclusionPasses::drawLayers(const OcclusionInputs& inputs) const {
+    layers_.draw(inputs.peel,
+                 reduction_ ? reducedFrame(inputs.frame, downscaleOf(settings_)) : inputs.frame,
+                 reduction_ ? reduction_->depth() : inputs.gbuffer.depth(),
+                 layerSeparation * settings_["radius"]);
 }
 
 // What has yet to be drawn, light, is drawn first, for that binds other things at the same places.
@@ -345,6 +364,8 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     }
     if (reads & spheres)
         inputs.spheres().bind(spheresBinding);
+    for (int further = 0; further < layers_.count(); ++further)
+        gl::bindTexture(layerUnit(settings_.technique(), further), layers_.depth(further));
 }
 
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
@@ -396,6 +417,10 @@ const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
     if (reduction_) {
         reduction_->reduce(inputs.gbuffer, inputs.frame);
         tell(Reduction::reducePass);
+    }
+    if (layers_.count() > 0) {
+        drawLayers(inputs);
+        tell(FurtherLayers::pass);
     }
     bindInputs(inputs);
     for (const Step& step : steps_) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/frame/light.h"
+#include "renderer/techniques/further_layers.h"
 #include "renderer/techniques/proxy_spheres.h"
 #include "renderer/techniques/reduction.h"
 #include "renderer/techniques/settings.h"
@@ -50,6 +51,7 @@ struct OcclusionInputs {
     const Frame& frame; // the one that is bound
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
+    Peel peel = {};
 };
 
 // Called after each pass has been issued, for timing and counting. The textures that the pass read
@@ -91,10 +93,12 @@ class OcclusionPasses {
         gl::SlicedTarget target;
         int unit; // the texture unit from which later passes read it
     };
+    void drawLayers(const OcclusionInputs& inputs) const;
     void bindInputs(const OcclusionInputs& inputs) const;
     void run(const Step& step, const OcclusionInputs& inputs) const;
 
     mutable std::optional<Reduction> reduction_; // keeps its frame
+    FurtherLayers layers_;
     std::vector<Step> steps_;
     Settings settings_;
     gl::UniformBuffer block_;

@@ -37,7 +37,8 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
     const Lighting lighting(level, gpuScene, std::filesystem::path());
     const GBuffer gbuffer(fullWidth, fullHeight,
                           {true, lighting.readsNormals(), normalsFor(settings.technique(), kind)});
-    GBufferPass().draw(gpuScene, frame, gbuffer);
+    const GBufferPass gbufferPass;
+    gbufferPass.draw(gpuScene, frame, gbuffer);
     const LightBuffers light(fullWidth, fullHeight, lighting.hasDirect());
     lighting.draw(gbuffer, light);
     std::optional<ProxySpheres> fitted;
@@ -52,7 +53,7 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
                            [&] {
                                return OcclusionInputs::Light{light, lighting};
                            },
-                           spheres});
+                           spheres, peelOf(gbufferPass, gpuScene)});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
