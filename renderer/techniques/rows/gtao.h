@@ -77,7 +77,8 @@ constexpr Parameter gtaoParameters[] = {
     radiusMultiplier(1.457f, "XeGTAO, tuned against ray tracing"),
     intensity(),
     power(2.2f, "XeGTAO, tuned against ray tracing"),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter bitmaskParameters[] = {
     radius,
@@ -94,7 +95,8 @@ constexpr Parameter bitmaskParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Pass depthLevelsPass{.name = "depths",
                                .format = Format::r32f,
