@@ -132,7 +132,8 @@ struct Technique {
 // Matching (matching/match.h) fits the latter three, and what a row says is `fitted`. `guardBand`
 // is the share of the image's height that is rendered beyond each of its borders for the
 // technique's eyes only. `downscale` runs all passes on every nth pixel and spreads the result back
-// (renderer/techniques/reduction.h); what sends light cannot.
+// (renderer/techniques/reduction.h); what sends light cannot. `accumulate` is for techniques with
+// noise: the picture is a mean of up to so many frames (renderer/techniques/accumulation.h).
 
 std::span<const Technique> techniques();
 
