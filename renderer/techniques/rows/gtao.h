@@ -108,7 +108,8 @@ constexpr Parameter gtaoParameters[] = {
     radiusMultiplier(2, "ours: the fits of presets high and ultra; XeGTAO's 1.457 is for 3 steps"),
     intensity(),
     power(1.35f, "ours: the same; XeGTAO's 2.2 makes up for what 3 steps miss"),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter bitmaskParameters[] = {
     radius,
@@ -129,7 +130,8 @@ constexpr Parameter bitmaskParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Pass depthLevelsPass{.name = "depths",
                                .format = Format::r32f,
