@@ -51,6 +51,15 @@ constexpr Parameter edgeAngle{
     180,
     "ours: XeGTAO has none, and blurs creases"};
 
+constexpr Parameter layersOfDepth{
+    "layers",
+    Unit::count,
+    "of depth that each tap reads: what is seen, and what lies behind it",
+    1,
+    1,
+    3,
+    "neither paper peels"};
+
 constexpr Parameter adaptive{
     "adaptive",
     Unit::flag,
@@ -89,6 +98,8 @@ constexpr Parameter gtaoParameters[] = {
      0, 0, 1, "XeGTAO, off"},
     samplePower,
     levelOffset,
+    layersOfDepth,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
     adaptive,
     adaptiveRange,
     denoise,
@@ -97,7 +108,8 @@ constexpr Parameter gtaoParameters[] = {
     radiusMultiplier(2, "ours: the fits of presets high and ultra; XeGTAO's 1.457 is for 3 steps"),
     intensity(),
     power(1.35f, "ours: the same; XeGTAO's 2.2 makes up for what 3 steps miss"),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter bitmaskParameters[] = {
     radius,
@@ -108,6 +120,8 @@ constexpr Parameter bitmaskParameters[] = {
      1e-3f, 1e6f, "ours: best on seven of eight views, and what the depth reference assumes"},
     samplePower,
     levelOffset,
+    layersOfDepth,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
     adaptive,
     adaptiveRange,
     denoise,
@@ -116,7 +130,8 @@ constexpr Parameter bitmaskParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Pass depthLevelsPass{.name = "depths",
                                .format = Format::r32f,
@@ -124,22 +139,23 @@ constexpr Pass depthLevelsPass{.name = "depths",
                                .work = Work::prepare,
                                .fetches = one,
                                .levelFetches = [](const Settings&) { return 4.0; }};
-constexpr Pass surveyPass{.name = "survey",
-                          .format = Format::r16f,
-                          .enabledBy = "adaptive",
-                          .scale = 4,
-                          .work = Work::prepare,
-                          .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"]; }};
+constexpr Pass surveyPass{
+    .name = "survey",
+    .format = Format::r16f,
+    .enabledBy = "adaptive",
+    .scale = 4,
+    .work = Work::prepare,
+    .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"] * s["layers"]; }};
 constexpr Pass countsPass{.name = "counts",
                           .format = Format::r16f,
                           .enabledBy = "adaptive",
                           .scale = 4,
                           .work = Work::prepare,
                           .fetches = [](const Settings&) { return 9.0; }};
-// Fetches depth and normal of the pixel and how many slices it gets, and the depth of each tap
+// Fetches depth and normal of the pixel and how many slices it gets, and the depths of each tap
 // along both sides of each slice.
 constexpr Fetches slicesTaps = [](const Settings& s) {
-    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"];
+    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"] * s["layers"];
 };
 constexpr Pass edgesPass{.name = "edges",
                          .format = Format::rgba8,
@@ -221,7 +237,7 @@ constexpr Technique gtao{"gtao",
                          "Ground-truth AO (XeGTAO)",
                          "Jimenez, Wu, Pesce and Jarabo 2016; parameters of XeGTAO 1.30 (Strugar "
                          "and McCalla 2021)",
-                         normals | light,
+                         normals | light | layers,
                          nullptr,
                          gtaoParameters,
                          gtaoPasses,
@@ -230,7 +246,7 @@ constexpr Technique visibilityBitmask{
     "visibility_bitmask",
     "Visibility bitmask 2023",
     "Therrien, Levesque and Gilet 2023, with cosine-weighted sectors",
-    normals,
+    normals | layers,
     nullptr,
     bitmaskParameters,
     bitmaskPasses,

@@ -72,6 +72,17 @@ TEST_F(RaysAndRasteriser, AgreeOnTheAtrium) {
     EXPECT_GT(sightAgreement(atrium, camera, 160, 90), 0.97);
 }
 
+// Leaves cut out by alpha, and blades of grass narrower than a pixel.
+TEST_F(RaysAndRasteriser, AgreeOnTheGarden) {
+    Camera camera;
+    camera.position = {2.2, 1.3, -0.9};
+    camera.target = {4.8, 0.7, -3.5};
+    camera.fovDegrees = 60;
+    const Scene garden = builtinScene("garden");
+    EXPECT_GT(agreement(garden, camera, 320, 180), 0.97);
+    EXPECT_GT(sightAgreement(garden, camera, 160, 90), 0.9);
+}
+
 // From within a box of which only the outside is drawn, one sees what is around it; a picture and
 // who looks by rays alike.
 TEST_F(RaysAndRasteriser, AgreeOnBacks) {
