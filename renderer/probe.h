@@ -21,9 +21,11 @@ class Subject {
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
     const SceneSpheres& spheres() const { return spheres_; }
+    const SceneOccluders& occluders() const { return occluders_; }
 
   private:
     SceneSpheres spheres_;
+    SceneOccluders occluders_;
     GpuScene scene_;
     GBufferPass pass_;
     Lighting lighting_;

@@ -118,7 +118,8 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
                                      [&]() -> OcclusionInputs::Light {
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
-                                     [&]() -> const ProxySpheres& { return subject.spheres()(); }};
+                                     [&]() -> const ProxySpheres& { return subject.spheres()(); },
+                                     &subject.occluders()};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
             pane.passes.visibility(inputs);
