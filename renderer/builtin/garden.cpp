@@ -155,8 +155,7 @@ void furnish(Scene& scene, const Works& works) {
     };
     const auto addLeaves = [&](const Shape& shape, const char* name, int size,
                                const Painter& painter) {
-        add(shape, {.name = name, .alphaCutoff = 0.5F, .doubleSided = true}, {size, 1, false},
-            painter);
+        addMesh(scene, shape, addCutOut(scene, name, size, painter));
     };
     add(works.brick, {.name = "bricks"}, {1024, 2}, bricks());
     add(works.stone, {.name = "stone"}, {512, 1.5F}, limestone());
