@@ -314,7 +314,8 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                            [&]() -> OcclusionInputs::Light {
                                                return {light, lighting};
                                            },
-                                           std::cref(stage_->subject->spheres())});
+                                           std::cref(stage_->subject->spheres()),
+                                           stage_->subject->peel()});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard, gbuffer.emission());
         clock.mark(times_.composite);

@@ -19,6 +19,7 @@ std::string readsOf(const Technique& technique) {
     add(light, "light and albedo");
     add(spheres, "spheres fitted to the scene's meshes");
     add(rays, "the scene's triangles");
+    add(layers, "further layers of depth");
     return text;
 }
 
