@@ -52,7 +52,11 @@ class Probe {
     Image visibility(const Settings& settings, OcclusionPasses& passes, int beyond = 0) const;
     OcclusionPasses passesFor(const Settings& settings, int beyond = 0) const;
 
-    // The same without fetching the picture: what there is to time.
+    // The same of the next frame of a moving picture, which goes on from the passes' frame before
+    // (OcclusionPasses::next).
+    Image next(const Settings& settings, OcclusionPasses& passes, int beyond = 0) const;
+
+    // The next frame without fetching the picture: what there is to time.
     const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes, int beyond = 0,
                            const PassObserver& issued = {}) const;
     void drawGBuffer() const; // draws the G-buffer again, to be timed

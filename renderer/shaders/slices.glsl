@@ -60,7 +60,7 @@ Point pointOf(ivec2 pixel, float depth) {
     p.position = viewPosition(uvOf(pixel), depth);
     float nearness = inversesqrt(dot(p.position, p.position));
     p.view = -p.position * nearness;
-    // Interpolated normals may face away from the camera; slices need one that does not.
+    // Normals of a normal map may face away from the camera; slices need one that does not.
     vec3 normal = texelFetch(normalBuffer, pixel, 0).xyz;
     normal = normalize(normal + p.view * max(0.0, 2e-3 - dot(normal, p.view)));
     p.cosine = clamp(dot(normal, p.view), 1e-3, 1.0);

@@ -235,6 +235,15 @@ gl::Program passProgram(const Settings& settings, const Pass& pass, int level, W
         text);
 }
 
+namespace {
+
+// Visibility alone, or light beside it.
+int resultChannels(const Settings& settings) {
+    return gl::channelsOf(formatOf(settings, *enabledPasses(settings).back())) == 4 ? 4 : 1;
+}
+
+} // namespace
+
 double occlusionBytes(const Settings& settings, int width, int height) {
     const int factor = downscaleOf(settings);
     const auto smaller = [](int size, int scale) { return (size + scale - 1) / scale; };
@@ -255,6 +264,8 @@ double occlusionBytes(const Settings& settings, int width, int height) {
                 (bytesOf(gl::Format::r32f) + normal) +
             1.0 * width * height * bytesOf(formatOf(settings, *enabledPasses(settings).back()));
     }
+    if (accumulatedFrames(settings) > 1)
+        bytes += 1.0 * width * height * Accumulation::bytes(resultChannels(settings));
     return bytes;
 }
 
@@ -264,6 +275,10 @@ std::optional<Normals> normalsFor(const Technique& technique, Normals kind) {
 
 int downscaleOf(const Settings& settings) {
     return settings.has("downscale") ? static_cast<int>(settings["downscale"]) : 1;
+}
+
+int accumulatedFrames(const Settings& settings) {
+    return settings.has("accumulate") ? static_cast<int>(settings["accumulate"]) : 1;
 }
 
 int guardPixels(const Settings& settings, int height) {
@@ -288,6 +303,8 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
     : layers_(furtherLayers(settings), 1, 1), settings_(settings), block_(settingsBlock(settings)),
       open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
+    if (const int frames = accumulatedFrames(settings); frames > 1)
+        accumulation_.emplace(frames, resultChannels(settings), width, height);
     if (const int factor = downscaleOf(settings); factor > 1) {
         if (gl::channelsOf(formatOf(settings, *enabledPasses(settings).back())) == 4)
             throw Error(fmt::format("expected downscale = 1 where {} sends light (four channels "
@@ -314,6 +331,8 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
 }
 
 void OcclusionPasses::resize(int width, int height) {
+    if (accumulation_)
+        accumulation_->resize(width, height);
     if (reduction_) {
         reduction_->resize(width, height);
         width = reduction_->width();
@@ -331,6 +350,7 @@ void OcclusionPasses::set(const Settings& settings) {
     settings_ = settings;
     block_ = settingsBlock(settings);
     points_ = pointsOf(settings);
+    forget();
 }
 
 // In the frame that the passes work in.
@@ -408,14 +428,14 @@ void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const
     target.readAll();
 }
 
-const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
-                                               const PassObserver& issued) const {
+const gl::Texture& OcclusionPasses::oneFrame(const OcclusionInputs& inputs, const Frame& frame,
+                                             const PassObserver& issued) const {
     const auto tell = [&](const Pass& pass) {
         if (issued)
             issued(pass);
     };
     if (reduction_) {
-        reduction_->reduce(inputs.gbuffer, inputs.frame);
+        reduction_->reduce(inputs.gbuffer, frame);
         tell(Reduction::reducePass);
     }
     if (layers_.count() > 0) {
@@ -434,6 +454,33 @@ const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
     const gl::Texture& full = reduction_->upsample(result, inputs.gbuffer);
     tell(Reduction::upsamplePass);
     return full;
+}
+
+const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs) const {
+    forget();
+    for (int frame = 1; frame < accumulatedFrames(settings_); ++frame)
+        next(inputs);
+    return next(inputs);
+}
+
+const gl::Texture& OcclusionPasses::next(const OcclusionInputs& inputs,
+                                         const PassObserver& issued) const {
+    if (!accumulation_)
+        return oneFrame(inputs, inputs.frame, issued);
+    Frame frame = inputs.frame;
+    frame.seed.y = accumulation_->frame();
+    cycledFrame_.emplace(frameBuffer(frame));
+    bindFrame(*cycledFrame_);
+    const gl::Texture& result =
+        accumulation_->add(oneFrame(inputs, frame, issued), inputs.gbuffer, frame);
+    if (issued)
+        issued(Accumulation::pass);
+    return result;
+}
+
+void OcclusionPasses::forget() const {
+    if (accumulation_)
+        accumulation_->forget();
 }
 
 bool OcclusionPasses::sendsLight() const {

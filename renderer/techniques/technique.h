@@ -134,7 +134,9 @@ struct Technique {
 // is the share of the image's height that is rendered beyond each of its borders for the
 // technique's eyes only. `layers` is how many layers of depth it reads
 // (renderer/techniques/further_layers.h). `downscale` runs all passes on every nth pixel and
-// spreads the result back (renderer/techniques/reduction.h); what sends light cannot.
+// spreads the result back (renderer/techniques/reduction.h); what sends light cannot. `accumulate`
+// is for techniques with noise: the picture is a mean of up to so many frames
+// (renderer/techniques/accumulation.h).
 
 std::span<const Technique> techniques();
 

@@ -20,14 +20,15 @@ inline Level whiteLight() {
 }
 
 // What a technique's passes leave: visibility, and the light to add where it has any. Top row
-// first.
+// first. `accumulated` frames were before this one (Frame::seed.y).
 inline Image occlusionOf(const Scene& scene, const Camera& camera, const Settings& settings,
                          int width, int height, std::uint64_t seed = 1,
                          Normals kind = Normals::smooth, const Level& level = whiteLight(),
-                         std::vector<glm::vec4> proxies = {}) {
+                         std::vector<glm::vec4> proxies = {}, int accumulated = 0) {
     const GpuScene gpuScene(scene);
     const int guard = guardPixels(settings, height);
-    const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
+    Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
+    frame.seed.y = accumulated;
     const gl::UniformBuffer block = frameBuffer(frame);
     bindFrame(block);
     if (settings.technique().reads & rays)
@@ -72,9 +73,9 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
 
 // Visibility alone: 1 channel.
 inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settings& settings,
-                          int width, int height, std::uint64_t seed = 1,
-                          Normals kind = Normals::smooth) {
-    Image image = occlusionOf(scene, camera, settings, width, height, seed, kind);
+                          int width, int height, std::uint64_t seed = 1, int accumulated = 0) {
+    Image image = occlusionOf(scene, camera, settings, width, height, seed, Normals::smooth,
+                              whiteLight(), {}, accumulated);
     const auto channels = static_cast<std::size_t>(image.channels);
     for (std::size_t i = 0; i < image.pixels.size() / channels; ++i)
         image.pixels[i] = image.pixels[i * channels];
