@@ -22,9 +22,11 @@ class Subject {
     const Lighting& lighting() const { return lighting_; }
     const SceneSpheres& spheres() const { return spheres_; }
     Peel peel() const { return peelOf(pass_, scene_); }
+    const SceneOccluders& occluders() const { return occluders_; }
 
   private:
     SceneSpheres spheres_;
+    SceneOccluders occluders_;
     GpuScene scene_;
     GBufferPass pass_;
     Lighting lighting_;

@@ -48,13 +48,14 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
             fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
         return *fitted;
     };
+    const SceneOccluders occluders(scene);
     const OcclusionPasses passes(settings, fullWidth, fullHeight);
     const gl::Texture& texture =
         passes.visibility({gbuffer, frame,
                            [&] {
                                return OcclusionInputs::Light{light, lighting};
                            },
-                           spheres, peelOf(gbufferPass, gpuScene)});
+                           spheres, peelOf(gbufferPass, gpuScene), &occluders});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
