@@ -21,9 +21,12 @@ class Subject {
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
     const SceneSpheres& spheres() const { return spheres_; }
+    Peel peel() const { return peelOf(pass_, scene_); }
+    const SceneOccluders& occluders() const { return occluders_; }
 
   private:
     SceneSpheres spheres_;
+    SceneOccluders occluders_;
     GpuScene scene_;
     GBufferPass pass_;
     Lighting lighting_;

@@ -114,11 +114,14 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
         pane.traced = visibilityTexture(shaped(*truth->visibility, pane.settings));
         pane.visibility = &pane.traced;
     } else {
-        const OcclusionInputs inputs{sight.gbuffer, sight.frame,
+        const OcclusionInputs inputs{sight.gbuffer,
+                                     sight.frame,
                                      [&]() -> OcclusionInputs::Light {
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
-                                     [&]() -> const ProxySpheres& { return subject.spheres()(); }};
+                                     [&]() -> const ProxySpheres& { return subject.spheres()(); },
+                                     subject.peel(),
+                                     &subject.occluders()};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
             pane.passes.next(inputs);

@@ -44,6 +44,8 @@ double fetchesPerPixel(const Settings& settings) {
     };
     if (downscaleOf(settings) > 1)
         add(Reduction::reducePass, 0);
+    if (furtherLayers(settings) > 0)
+        add(FurtherLayers::pass, 0);
     for (const Pass* pass : enabledPasses(settings))
         for (int level = 0; level < pass->levels; ++level)
             add(*pass, level);

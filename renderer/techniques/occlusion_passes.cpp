@@ -13,11 +13,12 @@ namespace obscura {
 namespace {
 
 // Binding points of a pass's shader. Blocks; the frame is 0.
-constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4;
+constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4,
+              occludersBinding = 5, voxelsBinding = 6;
 // Samplers; later results follow.
 constexpr int depthUnit = 0, normalUnit = 1, albedoUnit = 2, ambientUnit = 3, directUnit = 4,
-              resultUnit = 5;
-constexpr int group = 128; // compute shaders' pixels that share memory
+              resultUnit = 5, voxelsUnit = 20; // results, at most eleven, end below the latter
+constexpr int group = 128;                     // compute shaders' pixels that share memory
 
 bool enabled(const Settings& settings, const Pass& pass) {
     return pass.enabledBy.empty() || settings[pass.enabledBy] >= static_cast<float>(pass.from);
@@ -25,6 +26,10 @@ bool enabled(const Settings& settings, const Pass& pass) {
 
 bool widened(const Settings& settings, const Pass& pass) {
     return !pass.widenedBy.empty() && settings[pass.widenedBy] > 0;
+}
+
+int layerUnit(const Technique& technique, int further) {
+    return resultUnit + static_cast<int>(technique.passes.size()) + further;
 }
 
 bool computes(const Pass& pass) {
@@ -96,6 +101,16 @@ void declareBlocks(gl::ShaderText& text, const Settings& settings) {
         block += fmt::format("layout(std430, binding = {}) readonly buffer SphereBlock {{ vec4 "
                              "spheres[]; }}; // world position, radius\n",
                              spheresBinding);
+    if (settings.technique().reads & triangles)
+        block +=
+            fmt::format("struct Occluder {{ vec4 a, b, c; }}; // corners; w: coverage, whether "
+                        "double-sided\nlayout(std430, binding = {}) readonly buffer "
+                        "OccluderBlock {{ Occluder occluders[]; }};\n",
+                        occludersBinding);
+    if (settings.technique().reads & voxels)
+        block += fmt::format("layout(std140, binding = {}) uniform VoxelBlock {{ vec4 voxelPlace, "
+                             "voxelScale; }};\n",
+                             voxelsBinding);
     text.addFile(shaderFolder(), "frame.h");
     text.add(block, "(generated declarations)");
 }
@@ -118,6 +133,12 @@ std::string declareInputs(const Settings& settings) {
         text += fmt::format("layout(binding = {}) uniform sampler2D ambientLight;\n", ambientUnit);
         text += fmt::format("layout(binding = {}) uniform sampler2D directLight;\n", directUnit);
     }
+    if (technique.reads & layers)
+        for (int further = 0; further < 2; ++further)
+            text += fmt::format("layout(binding = {}) uniform sampler2D {}Depth;\n",
+                                layerUnit(technique, further), further == 0 ? "second" : "third");
+    if (technique.reads & voxels)
+        text += fmt::format("layout(binding = {}) uniform sampler3D voxelOpacity;\n", voxelsUnit);
     if (technique.points)
         text += declarePoints(technique.points(settings));
     // The results of all passes are declared, because the file's other functions must compile too.
@@ -152,6 +173,7 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
                                    widened(settings, pass) ? "Wide" : "", level > 0 ? "Level" : "",
                                    pass.layers > 1              ? ", layer"
                                    : pass.stage == Stage::splat ? ", sphere"
+                                   : pass.stage == Stage::boxes ? ", Occluder(a, b, c)"
                                                                 : "");
     if (writes == Writes::fetches) {
         call += computes(pass) ? fmt::format(groupShare, pass.stage == Stage::rows ? "x" : "y")
@@ -176,7 +198,10 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
     return fmt::format("{}{}layout(location = 0) out vec4 result;\nvoid main() {{\n    ivec2 pixel "
                        "= ivec2(gl_FragCoord.xy);\n    {}    result = value;\n}}\n",
                        pass.layers > 1 ? "uniform int layer;\n" : "",
-                       pass.stage == Stage::splat ? "flat in vec4 sphere;\n" : "", call);
+                       pass.stage == Stage::splat   ? "flat in vec4 sphere;\n"
+                       : pass.stage == Stage::boxes ? "flat in vec4 a, b, c;\n"
+                                                    : "",
+                       call);
 }
 
 } // namespace
@@ -208,10 +233,14 @@ gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level,
     return text;
 }
 
-gl::ShaderText splatShader(const Settings& settings) {
+bool drawsObjects(const Pass& pass) {
+    return pass.stage == Stage::splat || pass.stage == Stage::boxes;
+}
+
+gl::ShaderText objectShader(const Settings& settings, const Pass& pass) {
     gl::ShaderText text;
     declareBlocks(text, settings);
-    text.addFile(shaderFolder(), "splat.vert");
+    text.addFile(shaderFolder(), pass.stage == Stage::splat ? "splat.vert" : "box.vert");
     return text;
 }
 
@@ -223,8 +252,7 @@ gl::Program passProgram(const Settings& settings, const Pass& pass, int level, W
     if (computes(pass))
         return gl::Program(label, text);
     return gl::Program(
-        label, pass.stage == Stage::splat ? splatShader(settings) : shaderText("screen.vert"),
-        text);
+        label, drawsObjects(pass) ? objectShader(settings, pass) : shaderText("screen.vert"), text);
 }
 
 namespace {
@@ -239,7 +267,8 @@ int resultChannels(const Settings& settings) {
 double occlusionBytes(const Settings& settings, int width, int height) {
     const int factor = downscaleOf(settings);
     const auto smaller = [](int size, int scale) { return (size + scale - 1) / scale; };
-    double bytes = 0;
+    double bytes = 1.0 * smaller(width, factor) * smaller(height, factor) *
+                   FurtherLayers::bytesPerPixel(furtherLayers(settings));
     for (const Pass* pass : enabledPasses(settings)) {
         const int across = smaller(smaller(width, factor), pass->scale),
                   down = smaller(smaller(height, factor), pass->scale);
@@ -291,7 +320,7 @@ gl::SlicedTarget targetOf(const Settings& settings, const Pass& pass, int width,
 } // namespace
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
-    : settings_(settings), block_(settingsBlock(settings)),
+    : layers_(furtherLayers(settings), 1, 1), settings_(settings), block_(settingsBlock(settings)),
       open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
     if (const int frames = accumulatedFrames(settings); frames > 1)
@@ -306,6 +335,7 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     int unit = resultUnit;
     for (const Pass& pass : technique.passes) {
         const int own = unit++;
@@ -328,6 +358,7 @@ void OcclusionPasses::resize(int width, int height) {
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     for (Step& step : steps_)
         step.target = targetOf(settings_, *step.pass, width, height);
 }
@@ -340,6 +371,14 @@ void OcclusionPasses::set(const Settings& settings) {
     block_ = settingsBlock(settings);
     points_ = pointsOf(settings);
     forget();
+}
+
+// In the frame that the passes work in.
+void OcclusionPasses::drawLayers(const OcclusionInputs& inputs) const {
+    layers_.draw(inputs.peel,
+                 reduction_ ? reducedFrame(inputs.frame, downscaleOf(settings_)) : inputs.frame,
+                 reduction_ ? reduction_->depth() : inputs.gbuffer.depth(),
+                 layerSeparation * settings_["radius"]);
 }
 
 // What has yet to be drawn, light, is drawn first, for that binds other things at the same places.
@@ -365,6 +404,13 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     }
     if (reads & spheres)
         inputs.spheres().bind(spheresBinding);
+    for (int further = 0; further < layers_.count(); ++further)
+        gl::bindTexture(layerUnit(settings_.technique(), further), layers_.depth(further));
+    if (reads & triangles)
+        inputs.occluders->triangles().bind(occludersBinding);
+    if (reads & voxels)
+        inputs.occluders->voxels(settings_["radius"] / settings_["voxels"])
+            .bind(voxelsUnit, voxelsBinding);
 }
 
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
@@ -378,7 +424,8 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
         return;
     }
     gl::State state;
-    state.add = pass.stage == Stage::splat;
+    state.add = drawsObjects(pass);
+    state.cullBack = pass.stage == Stage::boxes;
     state.apply();
     for (int layer = 0; layer < target.slices().layers; ++layer) {
         target.bind(0, layer);
@@ -386,7 +433,10 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
             program.set("layer", layer);
         if (state.add) {
             target.clear();
-            triangle.drawQuads(inputs.spheres().count());
+            if (pass.stage == Stage::splat)
+                triangle.drawQuads(inputs.spheres().count());
+            else
+                triangle.drawBoxes(inputs.occluders->triangles().count());
         } else {
             triangle.draw();
         }
@@ -416,6 +466,10 @@ const gl::Texture& OcclusionPasses::oneFrame(const OcclusionInputs& inputs, cons
     if (reduction_) {
         reduction_->reduce(inputs.gbuffer, frame);
         tell(Reduction::reducePass);
+    }
+    if (layers_.count() > 0) {
+        drawLayers(inputs);
+        tell(FurtherLayers::pass);
     }
     bindInputs(inputs);
     for (const Step& step : steps_) {

@@ -2,8 +2,10 @@
 
 #include "renderer/frame/light.h"
 #include "renderer/techniques/accumulation.h"
+#include "renderer/techniques/further_layers.h"
 #include "renderer/techniques/proxy_spheres.h"
 #include "renderer/techniques/reduction.h"
+#include "renderer/techniques/scene_occluders.h"
 #include "renderer/techniques/settings.h"
 
 #include <functional>
@@ -17,14 +19,16 @@ enum class Writes { value, fetches };
 
 // The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
 // technique's file, and a main that calls the pass's function. With `level` 1 it is the text for
-// every level after the first. The vertex shader of a splat pass comes from splatShader().
+// every level after the first. The vertex shader of a pass over objects comes from objectShader().
 gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0,
                           Writes writes = Writes::value);
-gl::ShaderText splatShader(const Settings& settings);
+gl::ShaderText objectShader(const Settings& settings, const Pass& pass);
 gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 0,
                         Writes writes = Writes::value);
 // The passes that these settings switch on, in order.
 std::vector<const Pass*> enabledPasses(const Settings& settings);
+// Whether the pass runs once for each sphere or triangle, all added up.
+bool drawsObjects(const Pass& pass);
 // What the pass writes under these settings.
 gl::Format formatOf(const Settings& settings, const Pass& pass);
 
@@ -53,6 +57,8 @@ struct OcclusionInputs {
     const Frame& frame; // the one that is bound
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
+    Peel peel = {};
+    const SceneOccluders* occluders = nullptr; // makes of them what is asked for, then
 };
 
 // Called after each pass has been issued, for timing and counting. The textures that the pass read
@@ -99,6 +105,7 @@ class OcclusionPasses {
         gl::SlicedTarget target;
         int unit; // the texture unit from which later passes read it
     };
+    void drawLayers(const OcclusionInputs& inputs) const;
     void bindInputs(const OcclusionInputs& inputs) const;
     void run(const Step& step, const OcclusionInputs& inputs) const;
 
@@ -106,6 +113,7 @@ class OcclusionPasses {
                                 const PassObserver& issued) const;
 
     mutable std::optional<Reduction> reduction_; // keeps its frame
+    FurtherLayers layers_;
     mutable std::optional<Accumulation> accumulation_;
     mutable std::optional<gl::UniformBuffer> cycledFrame_;
     std::vector<Step> steps_;

@@ -53,6 +53,16 @@ constexpr Parameter downscale{
     4,
     "the paper, whose passes are all of one size"};
 
+constexpr Parameter guardBand(float value, std::string_view source) {
+    return {"guardBand",
+            Unit::ratio,
+            "share of the image's height that is rendered beyond each border for taps to find",
+            value,
+            0,
+            0.5f,
+            source};
+}
+
 constexpr Parameter accumulate{
     "accumulate",
     Unit::count,

@@ -38,7 +38,8 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
     const Lighting lighting(level, gpuScene, std::filesystem::path());
     const GBuffer gbuffer(fullWidth, fullHeight,
                           {true, lighting.readsNormals(), normalsFor(settings.technique(), kind)});
-    GBufferPass().draw(gpuScene, frame, gbuffer);
+    const GBufferPass gbufferPass;
+    gbufferPass.draw(gpuScene, frame, gbuffer);
     const LightBuffers light(fullWidth, fullHeight, lighting.hasDirect());
     lighting.draw(gbuffer, light);
     std::optional<ProxySpheres> fitted;
@@ -47,13 +48,14 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
             fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
         return *fitted;
     };
+    const SceneOccluders occluders(scene);
     const OcclusionPasses passes(settings, fullWidth, fullHeight);
     const gl::Texture& texture =
         passes.visibility({gbuffer, frame,
                            [&] {
                                return OcclusionInputs::Light{light, lighting};
                            },
-                           spheres});
+                           spheres, peelOf(gbufferPass, gpuScene), &occluders});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
