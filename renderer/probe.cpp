@@ -89,9 +89,9 @@ const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& p
         return {*seen.light, subject_.lighting()};
     };
     bindFrame(seen.frameBlock);
-    return passes.visibility(
-        {seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()), &subject_.occluders()},
-        issued);
+    return passes.next({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()),
+                        subject_.peel(), &subject_.occluders()},
+                       issued);
 }
 
 Image Probe::visibility(const Settings& settings) const {
@@ -100,6 +100,14 @@ Image Probe::visibility(const Settings& settings) const {
 }
 
 Image Probe::visibility(const Settings& settings, OcclusionPasses& passes, int beyond) const {
+    passes.set(settings);
+    passes.forget();
+    for (int frame = 1; frame < accumulatedFrames(settings); ++frame)
+        run(settings, passes, beyond);
+    return next(settings, passes, beyond);
+}
+
+Image Probe::next(const Settings& settings, OcclusionPasses& passes, int beyond) const {
     Image image{width_, height_, 1, {}};
     if (settings.technique().passes.empty()) {
         image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),

@@ -315,7 +315,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                                return {light, lighting};
                                            },
                                            std::cref(stage_->subject->spheres()),
-                                           &stage_->subject->occluders()});
+                                           stage_->subject->peel(), &stage_->subject->occluders()});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard, gbuffer.emission());
         clock.mark(times_.composite);

@@ -20,6 +20,7 @@ std::string readsOf(const Technique& technique) {
     add(spheres, "spheres fitted to the scene's meshes");
     add(rays | triangles, "the scene's triangles");
     add(voxels, "voxels of the scene");
+    add(layers, "further layers of depth");
     return text;
 }
 

@@ -28,6 +28,10 @@ bool widened(const Settings& settings, const Pass& pass) {
     return !pass.widenedBy.empty() && settings[pass.widenedBy] > 0;
 }
 
+int layerUnit(const Technique& technique, int further) {
+    return resultUnit + static_cast<int>(technique.passes.size()) + further;
+}
+
 bool computes(const Pass& pass) {
     return pass.stage == Stage::rows || pass.stage == Stage::columns;
 }
@@ -129,6 +133,10 @@ std::string declareInputs(const Settings& settings) {
         text += fmt::format("layout(binding = {}) uniform sampler2D ambientLight;\n", ambientUnit);
         text += fmt::format("layout(binding = {}) uniform sampler2D directLight;\n", directUnit);
     }
+    if (technique.reads & layers)
+        for (int further = 0; further < 2; ++further)
+            text += fmt::format("layout(binding = {}) uniform sampler2D {}Depth;\n",
+                                layerUnit(technique, further), further == 0 ? "second" : "third");
     if (technique.reads & voxels)
         text += fmt::format("layout(binding = {}) uniform sampler3D voxelOpacity;\n", voxelsUnit);
     if (technique.points)
@@ -247,10 +255,20 @@ gl::Program passProgram(const Settings& settings, const Pass& pass, int level, W
         label, drawsObjects(pass) ? objectShader(settings, pass) : shaderText("screen.vert"), text);
 }
 
+namespace {
+
+// Visibility alone, or light beside it.
+int resultChannels(const Settings& settings) {
+    return gl::channelsOf(formatOf(settings, *enabledPasses(settings).back())) == 4 ? 4 : 1;
+}
+
+} // namespace
+
 double occlusionBytes(const Settings& settings, int width, int height) {
     const int factor = downscaleOf(settings);
     const auto smaller = [](int size, int scale) { return (size + scale - 1) / scale; };
-    double bytes = 0;
+    double bytes = 1.0 * smaller(width, factor) * smaller(height, factor) *
+                   FurtherLayers::bytesPerPixel(furtherLayers(settings));
     for (const Pass* pass : enabledPasses(settings)) {
         const int across = smaller(smaller(width, factor), pass->scale),
                   down = smaller(smaller(height, factor), pass->scale);
@@ -266,6 +284,8 @@ double occlusionBytes(const Settings& settings, int width, int height) {
                 (bytesOf(gl::Format::r32f) + normal) +
             1.0 * width * height * bytesOf(formatOf(settings, *enabledPasses(settings).back()));
     }
+    if (accumulatedFrames(settings) > 1)
+        bytes += 1.0 * width * height * Accumulation::bytes(resultChannels(settings));
     return bytes;
 }
 
@@ -275,6 +295,10 @@ std::optional<Normals> normalsFor(const Technique& technique, Normals kind) {
 
 int downscaleOf(const Settings& settings) {
     return settings.has("downscale") ? static_cast<int>(settings["downscale"]) : 1;
+}
+
+int accumulatedFrames(const Settings& settings) {
+    return settings.has("accumulate") ? static_cast<int>(settings["accumulate"]) : 1;
 }
 
 int guardPixels(const Settings& settings, int height) {
@@ -296,9 +320,11 @@ gl::SlicedTarget targetOf(const Settings& settings, const Pass& pass, int width,
 } // namespace
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
-    : settings_(settings), block_(settingsBlock(settings)),
+    : layers_(furtherLayers(settings), 1, 1), settings_(settings), block_(settingsBlock(settings)),
       open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
+    if (const int frames = accumulatedFrames(settings); frames > 1)
+        accumulation_.emplace(frames, resultChannels(settings), width, height);
     if (const int factor = downscaleOf(settings); factor > 1) {
         if (gl::channelsOf(formatOf(settings, *enabledPasses(settings).back())) == 4)
             throw Error(fmt::format("expected downscale = 1 where {} sends light (four channels "
@@ -309,6 +335,7 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     int unit = resultUnit;
     for (const Pass& pass : technique.passes) {
         const int own = unit++;
@@ -324,11 +351,14 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
 }
 
 void OcclusionPasses::resize(int width, int height) {
+    if (accumulation_)
+        accumulation_->resize(width, height);
     if (reduction_) {
         reduction_->resize(width, height);
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     for (Step& step : steps_)
         step.target = targetOf(settings_, *step.pass, width, height);
 }
@@ -340,6 +370,15 @@ void OcclusionPasses::set(const Settings& settings) {
     settings_ = settings;
     block_ = settingsBlock(settings);
     points_ = pointsOf(settings);
+    forget();
+}
+
+// In the frame that the passes work in.
+void OcclusionPasses::drawLayers(const OcclusionInputs& inputs) const {
+    layers_.draw(inputs.peel,
+                 reduction_ ? reducedFrame(inputs.frame, downscaleOf(settings_)) : inputs.frame,
+                 reduction_ ? reduction_->depth() : inputs.gbuffer.depth(),
+                 layerSeparation * settings_["radius"]);
 }
 
 // What has yet to be drawn, light, is drawn first, for that binds other things at the same places.
@@ -365,6 +404,8 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     }
     if (reads & spheres)
         inputs.spheres().bind(spheresBinding);
+    for (int further = 0; further < layers_.count(); ++further)
+        gl::bindTexture(layerUnit(settings_.technique(), further), layers_.depth(further));
     if (reads & triangles)
         inputs.occluders->triangles().bind(occludersBinding);
     if (reads & voxels)
@@ -416,15 +457,19 @@ void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const
     target.readAll();
 }
 
-const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
-                                               const PassObserver& issued) const {
+const gl::Texture& OcclusionPasses::oneFrame(const OcclusionInputs& inputs, const Frame& frame,
+                                             const PassObserver& issued) const {
     const auto tell = [&](const Pass& pass) {
         if (issued)
             issued(pass);
     };
     if (reduction_) {
-        reduction_->reduce(inputs.gbuffer, inputs.frame);
+        reduction_->reduce(inputs.gbuffer, frame);
         tell(Reduction::reducePass);
+    }
+    if (layers_.count() > 0) {
+        drawLayers(inputs);
+        tell(FurtherLayers::pass);
     }
     bindInputs(inputs);
     for (const Step& step : steps_) {
@@ -438,6 +483,33 @@ const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
     const gl::Texture& full = reduction_->upsample(result, inputs.gbuffer);
     tell(Reduction::upsamplePass);
     return full;
+}
+
+const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs) const {
+    forget();
+    for (int frame = 1; frame < accumulatedFrames(settings_); ++frame)
+        next(inputs);
+    return next(inputs);
+}
+
+const gl::Texture& OcclusionPasses::next(const OcclusionInputs& inputs,
+                                         const PassObserver& issued) const {
+    if (!accumulation_)
+        return oneFrame(inputs, inputs.frame, issued);
+    Frame frame = inputs.frame;
+    frame.seed.y = accumulation_->frame();
+    cycledFrame_.emplace(frameBuffer(frame));
+    bindFrame(*cycledFrame_);
+    const gl::Texture& result =
+        accumulation_->add(oneFrame(inputs, frame, issued), inputs.gbuffer, frame);
+    if (issued)
+        issued(Accumulation::pass);
+    return result;
+}
+
+void OcclusionPasses::forget() const {
+    if (accumulation_)
+        accumulation_->forget();
 }
 
 bool OcclusionPasses::sendsLight() const {

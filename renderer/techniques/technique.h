@@ -97,6 +97,7 @@ enum Reads : unsigned {
     light = 2,      // albedoBuffer, ambientLight, directLight; environment.glsl
     spheres = 4,    // proxy spheres of the scene (renderer/scene/proxies.h)
     rays = 8,       // the triangles themselves: no passes, the reference gives visibility
+    layers = 16,    // secondDepth, thirdDepth: of depth, where the count `layers` asks for them
     triangles = 32, // occluders (renderer/scene/occluders.h)
     voxels = 64     // voxelOpacity, voxelPlace, voxelScale: sides are `radius`, before it is
                     // multiplied, / `voxels` (renderer/scene/voxels.h)
@@ -137,8 +138,11 @@ struct Technique {
 // both tend to exp(-intensity |power| (1 - v)), so that no end of the one is one of all curves.
 // Matching (matching/match.h) fits the latter three, and what a row says is `fitted`. `guardBand`
 // is the share of the image's height that is rendered beyond each of its borders for the
-// technique's eyes only. `downscale` runs all passes on every nth pixel and spreads the result back
-// (renderer/techniques/reduction.h); what sends light cannot.
+// technique's eyes only. `layers` is how many layers of depth it reads
+// (renderer/techniques/further_layers.h). `downscale` runs all passes on every nth pixel and
+// spreads the result back (renderer/techniques/reduction.h); what sends light cannot. `accumulate`
+// is for techniques with noise: the picture is a mean of up to so many frames
+// (renderer/techniques/accumulation.h).
 
 std::span<const Technique> techniques();
 
@@ -206,9 +210,10 @@ constexpr bool wellFormed(const Technique& technique) {
         if (!wellFormed(technique.presets[i], technique.parameters))
             return false;
     }
-    // Five samplers are inputs, and a shader has sixteen.
-    return technique.passes.size() <= 11 && !technique.id.empty() && !technique.title.empty() &&
-           !technique.citation.empty();
+    // Five samplers are inputs, further layers of depth two more, and a shader has sixteen.
+    const std::size_t inputs = technique.reads & layers ? 7 : 5;
+    return technique.passes.size() + inputs <= 16 && !technique.id.empty() &&
+           !technique.title.empty() && !technique.citation.empty();
 }
 
 constexpr bool wellFormed(std::span<const Technique> table) {

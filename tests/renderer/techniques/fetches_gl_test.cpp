@@ -50,17 +50,20 @@ class Room {
           gbuffer_(width, height, {true, false, Normals::smooth}), light_(width, height, false),
           spheres_(std::array{glm::vec4(0.3f, -0.5f, 0.2f, 0.3f)}) {
         bindFrame(frameBlock_);
-        GBufferPass().draw(scene_, frame_, gbuffer_);
+        pass_.draw(scene_, frame_, gbuffer_);
         lighting_.draw(gbuffer_, light_);
     }
     // Its frame is bound.
     OcclusionInputs inputs() const {
         bindFrame(frameBlock_);
-        return {gbuffer_, frame_,
+        return {gbuffer_,
+                frame_,
                 [this]() -> OcclusionInputs::Light {
                     return {light_, lighting_};
                 },
-                [this]() -> const ProxySpheres& { return spheres_; }, &occluders_};
+                [this]() -> const ProxySpheres& { return spheres_; },
+                peelOf(pass_, scene_),
+                &occluders_};
     }
     std::vector<FetchCount> count(const Settings& settings) const {
         return countFetches(settings, inputs(), width_, height_);
@@ -79,6 +82,7 @@ class Room {
     Frame frame_;
     gl::UniformBuffer frameBlock_;
     Lighting lighting_;
+    GBufferPass pass_;
     GBuffer gbuffer_;
     LightBuffers light_;
     ProxySpheres spheres_;
@@ -147,7 +151,8 @@ TEST_F(GlTest, PassesFetchWhatTheyDeclareWithOtherSettings) {
         {"gtao", {{"denoise", 0}, {"bentNormals", 1}, {"steps", 5}}},
         {"gtao", {{"denoise", 3}, {"bentNormals", 1}}},
         {"gtao", {{"adaptive", 1}}},
-        {"visibility_bitmask", {{"denoise", 3}, {"slices", 2}}},
+        {"gtao", {{"adaptive", 1}, {"layers", 3}}},
+        {"visibility_bitmask", {{"denoise", 3}, {"slices", 2}, {"layers", 2}}},
         {"visibility_bitmask", {{"adaptive", 1}, {"slices", 2}}},
         {"alchemy", {{"samples", 7}, {"blurRadius", 32}}},
         {"sao", {{"samples", 24}, {"mipOffset", 0}}},
