@@ -32,6 +32,7 @@ constexpr Technique table[] = {
     rows::horizon::multiScale,
     rows::gtao::gtao,
     rows::gtao::visibilityBitmask,
+    rows::gtao::gtVbao,
     rows::obscurance::alchemy,
     rows::obscurance::alchemyFormOne,
     rows::obscurance::alchemyCs562,

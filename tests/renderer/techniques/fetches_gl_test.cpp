@@ -154,6 +154,7 @@ TEST_F(GlTest, PassesFetchWhatTheyDeclareWithOtherSettings) {
         {"gtao", {{"adaptive", 1}, {"layers", 3}}},
         {"visibility_bitmask", {{"denoise", 3}, {"slices", 2}, {"layers", 2}}},
         {"visibility_bitmask", {{"adaptive", 1}, {"slices", 2}}},
+        {"gt_vbao", {{"adaptive", 1}, {"steps", 3}}},
         {"alchemy", {{"samples", 7}, {"blurRadius", 32}}},
         {"sao", {{"samples", 24}, {"mipOffset", 0}}},
         {"volumetric_obscurance", {{"samples", 4}, {"clipByNormal", 0}}},
