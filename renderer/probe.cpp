@@ -32,7 +32,8 @@ struct Probe::Sight {
 };
 
 Subject::Subject(const Scene& scene)
-    : spheres_(scene), scene_(scene), lighting_(whiteLight(), scene_, std::filesystem::path()) {}
+    : spheres_(scene), occluders_(scene), scene_(scene),
+      lighting_(whiteLight(), scene_, std::filesystem::path()) {}
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
              std::uint64_t seed, StoredDepth storedDepth)
@@ -88,8 +89,9 @@ const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& p
         return {*seen.light, subject_.lighting()};
     };
     bindFrame(seen.frameBlock);
-    return passes.visibility({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres())},
-                             issued);
+    return passes.next({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()),
+                        subject_.peel(), &subject_.occluders()},
+                       issued);
 }
 
 Image Probe::visibility(const Settings& settings) const {
@@ -98,6 +100,14 @@ Image Probe::visibility(const Settings& settings) const {
 }
 
 Image Probe::visibility(const Settings& settings, OcclusionPasses& passes, int beyond) const {
+    passes.set(settings);
+    passes.forget();
+    for (int frame = 1; frame < accumulatedFrames(settings); ++frame)
+        run(settings, passes, beyond);
+    return next(settings, passes, beyond);
+}
+
+Image Probe::next(const Settings& settings, OcclusionPasses& passes, int beyond) const {
     Image image{width_, height_, 1, {}};
     if (settings.technique().passes.empty()) {
         image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),

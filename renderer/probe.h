@@ -21,9 +21,12 @@ class Subject {
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
     const SceneSpheres& spheres() const { return spheres_; }
+    Peel peel() const { return peelOf(pass_, scene_); }
+    const SceneOccluders& occluders() const { return occluders_; }
 
   private:
     SceneSpheres spheres_;
+    SceneOccluders occluders_;
     GpuScene scene_;
     GBufferPass pass_;
     Lighting lighting_;
@@ -51,7 +54,11 @@ class Probe {
     Image visibility(const Settings& settings, OcclusionPasses& passes, int beyond = 0) const;
     OcclusionPasses passesFor(const Settings& settings, int beyond = 0) const;
 
-    // The same without fetching the picture: what there is to time.
+    // The same of the next frame of a moving picture, which goes on from the passes' frame before
+    // (OcclusionPasses::next).
+    Image next(const Settings& settings, OcclusionPasses& passes, int beyond = 0) const;
+
+    // The next frame without fetching the picture: what there is to time.
     const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes, int beyond = 0,
                            const PassObserver& issued = {}) const;
     void drawGBuffer() const; // draws the G-buffer again, to be timed

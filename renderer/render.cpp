@@ -123,8 +123,8 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
     for (const Pass* pass : enabledPasses(settings)) {
         for (int l = 0; l < (pass->levels > 1 ? 2 : 1); ++l)
             hash.add(passShader(settings, *pass, l).text());
-        if (pass->stage == Stage::splat)
-            hash.add(splatShader(settings).text());
+        if (drawsObjects(*pass))
+            hash.add(objectShader(settings, *pass).text());
     }
     if (downscaleOf(settings) > 1)
         hash.add(Reduction::reduceShader().text() + Reduction::upsampleShader().text());
@@ -314,7 +314,8 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                            [&]() -> OcclusionInputs::Light {
                                                return {light, lighting};
                                            },
-                                           std::cref(stage_->subject->spheres())});
+                                           std::cref(stage_->subject->spheres()),
+                                           stage_->subject->peel(), &stage_->subject->occluders()});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard, gbuffer.emission());
         clock.mark(times_.composite);

@@ -114,17 +114,26 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
         pane.traced = visibilityTexture(shaped(*truth->visibility, pane.settings));
         pane.visibility = &pane.traced;
     } else {
-        const OcclusionInputs inputs{sight.gbuffer, sight.frame,
+        const OcclusionInputs inputs{sight.gbuffer,
+                                     sight.frame,
                                      [&]() -> OcclusionInputs::Light {
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
-                                     [&]() -> const ProxySpheres& { return subject.spheres()(); }};
+                                     [&]() -> const ProxySpheres& { return subject.spheres()(); },
+                                     subject.peel(),
+                                     &subject.occluders()};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
-            pane.passes.visibility(inputs);
+            pane.passes.next(inputs);
             clock.mark();
         }
-        pane.visibility = &pane.passes.visibility(inputs, [&](const Pass& pass) {
+        // Of the frames that a still picture takes, the last one is timed.
+        pane.passes.forget();
+        for (int frame = 1; frame < accumulatedFrames(pane.settings); ++frame) {
+            pane.passes.next(inputs);
+            clock.mark();
+        }
+        pane.visibility = &pane.passes.next(inputs, [&](const Pass& pass) {
             const std::size_t piece = clock.mark();
             if (pane.times.empty())
                 pane.firstPiece = piece;

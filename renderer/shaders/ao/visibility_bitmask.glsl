@@ -9,12 +9,16 @@
 // needed. Edges are not rounded to whole sectors but compared with one place within each sector,
 // drawn anew per slice: every bit is then a ray, and the mean over slices has no rounding bias.
 //
+// Ours: with `layers` above 1 each further layer of a tap blocks its sectors too, as thick as the
+// first.
+//
 // Limit: cosine-weighted visibility where the surface of every pixel within the radius is a sheet
 // of that thickness along the view; per slice, 1 - the share of the union of the taps' arcs. With
 // thickness without end, GTAO's with a hard radius.
 
 #include "adaptive.glsl"
 #include "edges.glsl"
+#include "layers.glsl"
 #include "noise.glsl"
 #include "slices.glsl"
 
@@ -44,14 +48,23 @@ uint blockedBy(Tap tap, Slice slice, float direction, float place) {
     return near ? bitsBetween(sectors.x, sectors.y) : 0u;
 }
 
+// The same of all layers of one tap.
+uint blockedAt(Point p, Slice slice, float direction, float reach, float along, float place) {
+    Tap tap = tapAt(p, slice, direction, reach, along);
+    uint bits = blockedBy(tap, slice, direction, place);
+    for (int i = 1; i < int(settings.layers); ++i)
+        bits |= blockedBy(tapBehind(p, slice, direction, reach, tap, i), slice, direction, place);
+    return bits;
+}
+
 uint blockedIn(Point p, Slice slice, float place, float noise, int index) {
     vec2 reaches = reachesOf(p, slice);
     uint bits = 0u;
     int j = 0;
     do {
         float along = tapPlace(noise, index, j);
-        bits |= blockedBy(tapAt(p, slice, 1.0, reaches.x, along), slice, 1.0, place) |
-                blockedBy(tapAt(p, slice, -1.0, reaches.y, along), slice, -1.0, place);
+        bits |= blockedAt(p, slice, 1.0, reaches.x, along, place) |
+                blockedAt(p, slice, -1.0, reaches.y, along, place);
     } while (++j < int(settings.steps));
     return bits;
 }
