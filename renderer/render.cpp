@@ -129,7 +129,7 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
     if (downscaleOf(settings) > 1)
         hash.add(Reduction::reduceShader().text() + Reduction::upsampleShader().text());
     hash.add(compositeShader().text());
-    if (settings.technique().reads & rays) // stands in for passes
+    if (settings.technique().reads & (rays | traced)) // stands in for passes
         hash.add(rayTracerVersion());
     return hash.hex();
 }
@@ -314,7 +314,8 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                            [&]() -> OcclusionInputs::Light {
                                                return {light, lighting};
                                            },
-                                           std::cref(stage_->subject->spheres())});
+                                           std::cref(stage_->subject->spheres()),
+                                           std::cref(stage_->subject->traced())});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard, gbuffer.emission());
         clock.mark(times_.composite);

@@ -118,7 +118,7 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
                                      [&]() -> OcclusionInputs::Light {
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
-                                     [&]() -> const ProxySpheres& { return subject.spheres()(); }};
+                                     std::cref(subject.spheres()), std::cref(subject.traced())};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
             pane.passes.visibility(inputs);

@@ -16,8 +16,8 @@ namespace {
 constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4;
 // Samplers; later results follow.
 constexpr int depthUnit = 0, normalUnit = 1, albedoUnit = 2, ambientUnit = 3, directUnit = 4,
-              resultUnit = 5;
-constexpr int group = 128; // compute shaders' pixels that share memory
+              resultUnit = 5, tracedUnit = 16; // results end below it
+constexpr int group = 128;                     // compute shaders' pixels that share memory
 
 bool enabled(const Settings& settings, const Pass& pass) {
     return pass.enabledBy.empty() || settings[pass.enabledBy] >= static_cast<float>(pass.from);
@@ -118,6 +118,8 @@ std::string declareInputs(const Settings& settings) {
         text += fmt::format("layout(binding = {}) uniform sampler2D ambientLight;\n", ambientUnit);
         text += fmt::format("layout(binding = {}) uniform sampler2D directLight;\n", directUnit);
     }
+    if (technique.reads & traced)
+        text += fmt::format("layout(binding = {}) uniform sampler2D tracedBuffer;\n", tracedUnit);
     if (technique.points)
         text += declarePoints(technique.points(settings));
     // The results of all passes are declared, because the file's other functions must compile too.
@@ -238,6 +240,8 @@ double occlusionBytes(const Settings& settings, int width, int height) {
             bytes += 1.0 * std::max(across >> level, 1) * std::max(down >> level, 1) *
                      pass->layers * gl::bytesOf(formatOf(settings, *pass));
     }
+    if (settings.technique().reads & traced)
+        bytes += 1.0 * width * height * gl::bytesOf(gl::Format::r32f);
     if (factor > 1) {
         const double normal =
             settings.technique().reads & normals ? bytesOf(gl::Format::rgba16f) : 0;
@@ -326,6 +330,11 @@ void OcclusionPasses::set(const Settings& settings) {
 void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     const unsigned reads = settings_.technique().reads;
     const auto lit = reads & light ? std::optional(inputs.light()) : std::nullopt;
+    if (reads & traced)
+        gl::bindTexture(tracedUnit,
+                        inputs.traced(inputs.gbuffer, inputs.frame,
+                                      settings_["radius"] * settings_["radiusMultiplier"],
+                                      static_cast<int>(settings_["rays"])));
     block_.bind(settingsBinding);
     if (points_)
         points_->bind(pointsBinding);

@@ -50,6 +50,10 @@ struct OcclusionInputs {
     const Frame& frame; // the one that is bound
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
+    // Visibility within a radius (metres) by so many rays a pixel, in red, as large as the
+    // G-buffer; good until the next call (renderer/reference/few_rays.h).
+    std::function<const gl::Texture&(const GBuffer&, const Frame&, float radius, int rays)> traced =
+        {};
 };
 
 // Called after each pass has been issued, for timing and counting. The textures that the pass read

@@ -93,7 +93,8 @@ enum Reads : unsigned {
     normals = 1, // normalBuffer: view space
     light = 2,   // albedoBuffer, ambientLight, directLight; environment.glsl
     spheres = 4, // proxy spheres of the scene (renderer/scene/proxies.h)
-    rays = 8     // the triangles themselves: no passes, the reference gives visibility
+    rays = 8,    // the triangles themselves: no passes, the reference gives visibility
+    traced = 128 // tracedBuffer: visibility by `rays` rays a pixel (renderer/reference/few_rays.h)
 };
 
 // Settings that a technique's authors offer together under one name ("high"). The radius is never
@@ -200,8 +201,9 @@ constexpr bool wellFormed(const Technique& technique) {
         if (!wellFormed(technique.presets[i], technique.parameters))
             return false;
     }
-    // Five samplers are inputs, and a shader has sixteen.
-    return technique.passes.size() <= 11 && !technique.id.empty() && !technique.title.empty() &&
+    // Five samplers are inputs, or six, and a shader has sixteen.
+    const std::size_t most = technique.reads & traced ? 10 : 11;
+    return technique.passes.size() <= most && !technique.id.empty() && !technique.title.empty() &&
            !technique.citation.empty();
 }
 

@@ -43,6 +43,7 @@ constexpr Technique table[] = {
     rows::lit::ssdo,
     rows::lit::proxySpheresTechnique,
     rows::traced::rayTraced,
+    rows::traced::rtao,
 };
 static_assert(wellFormed(table));
 
