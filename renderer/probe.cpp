@@ -52,7 +52,7 @@ Subject::Subject(const Scene& scene)
     : Subject(scene, std::make_shared<const Scene>(geometryOf(scene))) {}
 
 Subject::Subject(const Scene& scene, std::shared_ptr<const Scene> geometry)
-    : spheres_(geometry), traced_(geometry), scene_(scene),
+    : spheres_(geometry), triangles_(geometry), traced_(geometry), scene_(scene),
       lighting_(whiteLight(), scene_, std::filesystem::path()) {}
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
@@ -110,7 +110,7 @@ const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& p
     };
     bindFrame(seen.frameBlock);
     return passes.visibility({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()),
-                              std::cref(subject_.traced())},
+                              std::cref(subject_.triangles()), std::cref(subject_.traced())},
                              issued);
 }
 

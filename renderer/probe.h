@@ -2,6 +2,7 @@
 
 #include "renderer/frame/surfaces.h"
 #include "renderer/reference/few_rays.h"
+#include "renderer/reference/triangle_tree.h"
 #include "renderer/techniques/occlusion_passes.h"
 
 #include <functional>
@@ -22,6 +23,7 @@ class Subject {
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
     const SceneSpheres& spheres() const { return spheres_; }
+    const SceneTriangles& triangles() const { return triangles_; }
     const FewRays& traced() const { return traced_; }
 
   private:
@@ -29,6 +31,7 @@ class Subject {
     Subject(const Scene& scene, std::shared_ptr<const Scene> geometry);
 
     SceneSpheres spheres_;
+    SceneTriangles triangles_;
     FewRays traced_;
     GpuScene scene_;
     GBufferPass pass_;

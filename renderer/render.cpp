@@ -315,6 +315,7 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                                return {light, lighting};
                                            },
                                            std::cref(stage_->subject->spheres()),
+                                           std::cref(stage_->subject->triangles()),
                                            std::cref(stage_->subject->traced())});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard, gbuffer.emission());

@@ -114,11 +114,14 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
         pane.traced = visibilityTexture(shaped(*truth->visibility, pane.settings));
         pane.visibility = &pane.traced;
     } else {
-        const OcclusionInputs inputs{sight.gbuffer, sight.frame,
+        const OcclusionInputs inputs{sight.gbuffer,
+                                     sight.frame,
                                      [&]() -> OcclusionInputs::Light {
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
-                                     std::cref(subject.spheres()), std::cref(subject.traced())};
+                                     std::cref(subject.spheres()),
+                                     std::cref(subject.triangles()),
+                                     std::cref(subject.traced())};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
             pane.passes.visibility(inputs);

@@ -18,7 +18,7 @@ std::string readsOf(const Technique& technique) {
     add(normals, "normals");
     add(light, "light and albedo");
     add(spheres, "spheres fitted to the scene's meshes");
-    add(rays | traced, "the scene's triangles");
+    add(rays | traced | triangles, "the scene's triangles");
     return text;
 }
 

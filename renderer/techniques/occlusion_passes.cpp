@@ -13,7 +13,8 @@ namespace obscura {
 namespace {
 
 // Binding points of a pass's shader. Blocks; the frame is 0.
-constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4;
+constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4,
+              trianglesBinding = 5; // three of them
 // Samplers; later results follow.
 constexpr int depthUnit = 0, normalUnit = 1, albedoUnit = 2, ambientUnit = 3, directUnit = 4,
               resultUnit = 5, tracedUnit = 16; // results end below it
@@ -96,6 +97,12 @@ void declareBlocks(gl::ShaderText& text, const Settings& settings) {
         block += fmt::format("layout(std430, binding = {}) readonly buffer SphereBlock {{ vec4 "
                              "spheres[]; }}; // world position, radius\n",
                              spheresBinding);
+    if (settings.technique().reads & triangles)
+        block += fmt::format(
+            "layout(std430, binding = {}) readonly buffer NodeBlock {{ uvec4 nodes[]; }};\n"
+            "layout(std430, binding = {}) readonly buffer TriangleBlock {{ vec4 triangles[]; }};\n"
+            "layout(std430, binding = {}) readonly buffer MaskBlock {{ uint masks[]; }};\n",
+            trianglesBinding, trianglesBinding + 1, trianglesBinding + 2);
     text.addFile(shaderFolder(), "frame.h");
     text.add(block, "(generated declarations)");
 }
@@ -354,6 +361,8 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     }
     if (reads & spheres)
         inputs.spheres().bind(spheresBinding);
+    if (reads & triangles)
+        inputs.triangles().bind(trianglesBinding);
 }
 
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,

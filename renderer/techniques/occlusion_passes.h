@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/frame/light.h"
+#include "renderer/frame/triangle_buffers.h"
 #include "renderer/techniques/proxy_spheres.h"
 #include "renderer/techniques/reduction.h"
 #include "renderer/techniques/settings.h"
@@ -50,6 +51,7 @@ struct OcclusionInputs {
     const Frame& frame; // the one that is bound
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
+    std::function<const TriangleBuffers&()> triangles = {};
     // Visibility within a radius (metres) by so many rays a pixel, in red, as large as the
     // G-buffer; good until the next call (renderer/reference/few_rays.h).
     std::function<const gl::Texture&(const GBuffer&, const Frame&, float radius, int rays)> traced =

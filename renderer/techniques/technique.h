@@ -90,10 +90,11 @@ struct Pass {
 // What a technique reads besides depth; buffers that nobody reads do not exist.
 enum Reads : unsigned {
     depthOnly = 0,
-    normals = 1, // normalBuffer: view space
-    light = 2,   // albedoBuffer, ambientLight, directLight; environment.glsl
-    spheres = 4, // proxy spheres of the scene (renderer/scene/proxies.h)
-    rays = 8,    // the triangles themselves: no passes, the reference gives visibility
+    normals = 1,    // normalBuffer: view space
+    light = 2,      // albedoBuffer, ambientLight, directLight; environment.glsl
+    spheres = 4,    // proxy spheres of the scene (renderer/scene/proxies.h)
+    rays = 8,       // the triangles themselves: no passes, the reference gives visibility
+    triangles = 32, // in a tree (renderer/frame/triangle_buffers.h): tree.glsl
     traced = 128 // tracedBuffer: visibility by `rays` rays a pixel (renderer/reference/few_rays.h)
 };
 

@@ -44,6 +44,7 @@ constexpr Technique table[] = {
     rows::lit::proxySpheresTechnique,
     rows::traced::rayTraced,
     rows::traced::rtao,
+    rows::traced::rtaoBvh,
 };
 static_assert(wellFormed(table));
 

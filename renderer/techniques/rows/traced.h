@@ -61,6 +61,8 @@ constexpr std::array<Pass, 4> gatherAndSmooth(Fetches gather) {
               .fetches = nine}}};
 }
 constexpr auto rtaoPasses = gatherAndSmooth(one);
+// Nodes and triangles are read from buffers.
+constexpr auto rtaoBvhPasses = gatherAndSmooth([](const Settings&) { return 2.0; });
 
 constexpr PresetValue presetLow[] = {{"rays", 2}};
 constexpr PresetValue presetMedium[] = {{"rays", 4}};
@@ -78,5 +80,13 @@ constexpr Technique rtao{
     rtaoParameters,
     rtaoPasses,
     rayPresets};
+constexpr Technique rtaoBvh{"rtao_bvh",
+                            "Ray-traced AO (shader)",
+                            "as rtao, traced by a shader in a tree of boxes that Embree builds",
+                            normals | triangles,
+                            nullptr,
+                            rtaoParameters,
+                            rtaoBvhPasses,
+                            rayPresets};
 
 } // namespace obscura::rows::traced

@@ -48,6 +48,7 @@ class Room {
           lighting_(whiteLight(), scene_, std::filesystem::path()),
           gbuffer_(width, height, {true, false, Normals::smooth}), light_(width, height, false),
           spheres_(std::array{glm::vec4(0.3f, -0.5f, 0.2f, 0.3f)}),
+          triangles_(std::make_shared<const Scene>(scene)),
           traced_(std::make_shared<const Scene>(scene)) {
         bindFrame(frameBlock_);
         GBufferPass().draw(scene_, frame_, gbuffer_);
@@ -56,11 +57,14 @@ class Room {
     // Its frame is bound.
     OcclusionInputs inputs() const {
         bindFrame(frameBlock_);
-        return {gbuffer_, frame_,
+        return {gbuffer_,
+                frame_,
                 [this]() -> OcclusionInputs::Light {
                     return {light_, lighting_};
                 },
-                [this]() -> const ProxySpheres& { return spheres_; }, std::cref(traced_)};
+                [this]() -> const ProxySpheres& { return spheres_; },
+                std::cref(triangles_),
+                std::cref(traced_)};
     }
     std::vector<FetchCount> count(const Settings& settings) const {
         return countFetches(settings, inputs(), width_, height_);
@@ -81,6 +85,7 @@ class Room {
     GBuffer gbuffer_;
     LightBuffers light_;
     ProxySpheres spheres_;
+    SceneTriangles triangles_;
     FewRays traced_;
 };
 
