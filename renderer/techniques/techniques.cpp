@@ -47,6 +47,8 @@ constexpr Technique table[] = {
     rows::objects::volumes,
     rows::objects::voxelAo,
     rows::traced::rayTraced,
+    rows::traced::rtao,
+    rows::traced::rtaoBvh,
 };
 static_assert(wellFormed(table));
 
