@@ -83,7 +83,7 @@ void addGrass(Works& works) {
     Random random(0, "builtin/garden/grass");
     const Noise noise("builtin/garden/grass");
     works.grass = lawn(
-        {-half.x, bed}, {half.x, terrace - 0.02F}, 600,
+        {-half.x, bed}, {half.x, terrace - 0.02F}, 1200,
         [&](glm::vec2 p) {
             for (const glm::vec2 step : steps)
                 if (glm::length(p - step) < stepRadius)
@@ -155,8 +155,7 @@ void furnish(Scene& scene, const Works& works) {
     };
     const auto addLeaves = [&](const Shape& shape, const char* name, int size,
                                const Painter& painter) {
-        add(shape, {.name = name, .alphaCutoff = 0.5F, .doubleSided = true}, {size, 1, false},
-            painter);
+        addMesh(scene, shape, addCutOut(scene, name, size, painter));
     };
     add(works.brick, {.name = "bricks"}, {1024, 2}, bricks());
     add(works.stone, {.name = "stone"}, {512, 1.5F}, limestone());

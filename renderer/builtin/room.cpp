@@ -147,8 +147,7 @@ void furnish(Scene& scene, const Works& works) {
     add(works.canvas, {.name = "painting"}, {512, 1, false}, painting());
     add(works.terracotta, {.name = "terracotta"}, {512, 0.5F, true, true},
         glaze({0.68F, 0.40F, 0.27F}));
-    add(works.leaves, {.name = "palm", .alphaCutoff = 0.5F, .doubleSided = true}, {512, 1, false},
-        frond());
+    addMesh(scene, works.leaves, addCutOut(scene, "palm", 512, frond()));
 }
 
 } // namespace

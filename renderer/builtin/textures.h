@@ -27,6 +27,10 @@ struct Canvas {
 // Paints the textures of a new material and returns its index.
 int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Painter& painter);
 
+// Leaves: thin, cut out by alpha, of a texture that covers each once. It has no mipmaps, so that
+// the rasteriser's holes are those of rays (RayScene) at any distance.
+int addCutOut(Scene& scene, const char* name, int size, const Painter& painter);
+
 // A texture of colours (and alpha) that were worked out elsewhere.
 int addColourTexture(Scene& scene, Image8 image);
 

@@ -79,8 +79,8 @@ TEST_F(RaysAndRasteriser, AgreeOnTheGarden) {
     camera.target = {4.8, 0.7, -3.5};
     camera.fovDegrees = 60;
     const Scene garden = builtinScene("garden");
-    EXPECT_GT(agreement(garden, camera, 320, 180), 0.97);
-    EXPECT_GT(sightAgreement(garden, camera, 160, 90), 0.9);
+    EXPECT_GT(agreement(garden, camera, 320, 180), 0.995);
+    EXPECT_GT(sightAgreement(garden, camera, 160, 90), 0.97);
 }
 
 // From within a box of which only the outside is drawn, one sees what is around it; a picture and
