@@ -114,12 +114,16 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
         pane.traced = visibilityTexture(shaped(*truth->visibility, pane.settings));
         pane.visibility = &pane.traced;
     } else {
-        const OcclusionInputs inputs{sight.gbuffer, sight.frame,
+        const OcclusionInputs inputs{sight.gbuffer,
+                                     sight.frame,
                                      [&]() -> OcclusionInputs::Light {
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
-                                     [&]() -> const ProxySpheres& { return subject.spheres()(); },
-                                     subject.peel()};
+                                     std::cref(subject.spheres()),
+                                     subject.peel(),
+                                     &subject.occluders(),
+                                     std::cref(subject.triangles()),
+                                     std::cref(subject.traced())};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
             pane.passes.next(inputs);

@@ -56,7 +56,7 @@ History historyAt(vec3 position, vec3 normal) {
         vec2 perDepth = uvOf(pixel) * beforeFromUv.xy + beforeFromUv.zw;
         vec3 found = vec3(perDepth, -1.0) * known.x;
         float pixelWidth = known.x * beforeFromUv.y * frame.size.w;
-        if (known.y <= 0.0 || abs(dot(normal, found - position)) > abs(pixelWidth))
+        if (known.y <= 0.0 || abs(dot(normal, found - position)) > 0.5 * abs(pixelWidth))
             continue;
         mean += weight * texelFetch(meanBefore, pixel, 0);
         count += weight * known.y;

@@ -26,7 +26,7 @@ glm::mat4 viewFromView(const Frame& to, const Frame& from) {
 gl::ShaderText Accumulation::shader() { return shaderText("accumulate.frag"); }
 
 Accumulation::Accumulation(int frames, int channels, int width, int height)
-    : frames_(frames), program_("accumulate", shaderText("screen.vert"), shader()),
+    : program_("accumulate", shaderText("screen.vert"), shader()),
       means_{meanTarget(channels, width, height), meanTarget(channels, width, height)} {
     program_.set("frames", static_cast<float>(frames));
 }

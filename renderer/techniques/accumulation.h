@@ -11,10 +11,10 @@ namespace obscura {
 // over frames whose noise differs, carried along with the surfaces of a static scene. Each pixel's
 // point is looked up in the frame before, by both cameras (reverse reprojection: Nehab, Sander,
 // Lawrence, Tatarchuk and Isidoro 2007). What those of the four pixels around show that lie on its
-// surface, within a pixel's width of its tangent plane, is its history, weighted bilinearly; the
-// others and what lies outside of the image are not. A frame then weighs 1 / n where the history is
-// a mean of n - 1 of them, up to `frames`, from where on the mean is an exponential one. So
-// `frames` frames before a still camera give their mean, and what had been hidden begins anew.
+// surface, within half a pixel's width of its tangent plane, is its history, weighted bilinearly;
+// the others and what lies outside of the image are not. A frame then weighs 1 / n where the
+// history is a mean of n - 1 of them, up to `frames`, from where on the mean is an exponential one.
+// So `frames` frames before a still camera give their mean, and what had been hidden begins anew.
 class Accumulation {
   public:
     // Of visibility with 1 or 4 channels.
@@ -45,7 +45,7 @@ class Accumulation {
     static constexpr double bytes(int channels) { return 2.0 * 4 * (channels + 2); }
 
   private:
-    int frames_, frame_ = 0;
+    int frame_ = 0;
     gl::Program program_;
     std::array<gl::Target, 2> means_; // the newest is [0]; depth and number of frames beside it
     std::optional<Frame> before_;

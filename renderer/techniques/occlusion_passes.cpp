@@ -13,10 +13,14 @@ namespace obscura {
 namespace {
 
 // Binding points of a pass's shader. Blocks; the frame is 0.
-constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4;
+constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4,
+              voxelsBinding = 6;
+// Storage blocks have bindings of their own.
+constexpr int treeBinding = 5; // three of them
+constexpr int occludersBinding = 3;
 // Samplers; later results follow.
 constexpr int depthUnit = 0, normalUnit = 1, albedoUnit = 2, ambientUnit = 3, directUnit = 4,
-              resultUnit = 5;
+              resultUnit = 5, voxelsUnit = 20, tracedUnit = 21; // results end below these
 constexpr int group = 128; // compute shaders' pixels that share memory
 
 bool enabled(const Settings& settings, const Pass& pass) {
@@ -100,6 +104,22 @@ void declareBlocks(gl::ShaderText& text, const Settings& settings) {
         block += fmt::format("layout(std430, binding = {}) readonly buffer SphereBlock {{ vec4 "
                              "spheres[]; }}; // world position, radius\n",
                              spheresBinding);
+    if (settings.technique().reads & triangles)
+        block +=
+            fmt::format("struct Occluder {{ vec4 a, b, c; }}; // corners; w: coverage, whether "
+                        "double-sided\nlayout(std430, binding = {}) readonly buffer "
+                        "OccluderBlock {{ Occluder occluders[]; }};\n",
+                        occludersBinding);
+    if (settings.technique().reads & voxels)
+        block += fmt::format("layout(std140, binding = {}) uniform VoxelBlock {{ vec4 voxelPlace, "
+                             "voxelScale; }};\n",
+                             voxelsBinding);
+    if (settings.technique().reads & tree)
+        block += fmt::format(
+            "layout(std430, binding = {}) readonly buffer NodeBlock {{ uvec4 nodes[]; }};\n"
+            "layout(std430, binding = {}) readonly buffer TriangleBlock {{ vec4 triangles[]; }};\n"
+            "layout(std430, binding = {}) readonly buffer MaskBlock {{ uint masks[]; }};\n",
+            treeBinding, treeBinding + 1, treeBinding + 2);
     text.addFile(shaderFolder(), "frame.h");
     text.add(block, "(generated declarations)");
 }
@@ -126,6 +146,10 @@ std::string declareInputs(const Settings& settings) {
         for (int further = 0; further < 2; ++further)
             text += fmt::format("layout(binding = {}) uniform sampler2D {}Depth;\n",
                                 layerUnit(technique, further), further == 0 ? "second" : "third");
+    if (technique.reads & voxels)
+        text += fmt::format("layout(binding = {}) uniform sampler3D voxelOpacity;\n", voxelsUnit);
+    if (technique.reads & traced)
+        text += fmt::format("layout(binding = {}) uniform sampler2D tracedBuffer;\n", tracedUnit);
     if (technique.points)
         text += declarePoints(technique.points(settings));
     // The results of all passes are declared, because the file's other functions must compile too.
@@ -160,6 +184,7 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
                                    widened(settings, pass) ? "Wide" : "", level > 0 ? "Level" : "",
                                    pass.layers > 1              ? ", layer"
                                    : pass.stage == Stage::splat ? ", sphere"
+                                   : pass.stage == Stage::boxes ? ", Occluder(a, b, c)"
                                                                 : "");
     if (writes == Writes::fetches) {
         call += computes(pass) ? fmt::format(groupShare, pass.stage == Stage::rows ? "x" : "y")
@@ -184,7 +209,10 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
     return fmt::format("{}{}layout(location = 0) out vec4 result;\nvoid main() {{\n    ivec2 pixel "
                        "= ivec2(gl_FragCoord.xy);\n    {}    result = value;\n}}\n",
                        pass.layers > 1 ? "uniform int layer;\n" : "",
-                       pass.stage == Stage::splat ? "flat in vec4 sphere;\n" : "", call);
+                       pass.stage == Stage::splat   ? "flat in vec4 sphere;\n"
+                       : pass.stage == Stage::boxes ? "flat in vec4 a, b, c;\n"
+                                                    : "",
+                       call);
 }
 
 } // namespace
@@ -216,10 +244,14 @@ gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level,
     return text;
 }
 
-gl::ShaderText splatShader(const Settings& settings) {
+bool drawsObjects(const Pass& pass) {
+    return pass.stage == Stage::splat || pass.stage == Stage::boxes;
+}
+
+gl::ShaderText objectShader(const Settings& settings, const Pass& pass) {
     gl::ShaderText text;
     declareBlocks(text, settings);
-    text.addFile(shaderFolder(), "splat.vert");
+    text.addFile(shaderFolder(), pass.stage == Stage::splat ? "splat.vert" : "box.vert");
     return text;
 }
 
@@ -231,8 +263,7 @@ gl::Program passProgram(const Settings& settings, const Pass& pass, int level, W
     if (computes(pass))
         return gl::Program(label, text);
     return gl::Program(
-        label, pass.stage == Stage::splat ? splatShader(settings) : shaderText("screen.vert"),
-        text);
+        label, drawsObjects(pass) ? objectShader(settings, pass) : shaderText("screen.vert"), text);
 }
 
 namespace {
@@ -256,6 +287,8 @@ double occlusionBytes(const Settings& settings, int width, int height) {
             bytes += 1.0 * std::max(across >> level, 1) * std::max(down >> level, 1) *
                      pass->layers * gl::bytesOf(formatOf(settings, *pass));
     }
+    if (settings.technique().reads & traced)
+        bytes += 1.0 * width * height * gl::bytesOf(gl::Format::r32f);
     if (factor > 1) {
         const double normal =
             settings.technique().reads & normals ? bytesOf(gl::Format::rgba16f) : 0;
@@ -365,6 +398,11 @@ void OcclusionPasses::drawLayers(const OcclusionInputs& inputs) const {
 void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     const unsigned reads = settings_.technique().reads;
     const auto lit = reads & light ? std::optional(inputs.light()) : std::nullopt;
+    if (reads & traced)
+        gl::bindTexture(tracedUnit,
+                        inputs.traced(inputs.gbuffer, inputs.frame,
+                                      settings_["radius"] * settings_["radiusMultiplier"],
+                                      static_cast<int>(settings_["rays"])));
     block_.bind(settingsBinding);
     if (points_)
         points_->bind(pointsBinding);
@@ -386,6 +424,13 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
         inputs.spheres().bind(spheresBinding);
     for (int further = 0; further < layers_.count(); ++further)
         gl::bindTexture(layerUnit(settings_.technique(), further), layers_.depth(further));
+    if (reads & triangles)
+        inputs.occluders->triangles().bind(occludersBinding);
+    if (reads & voxels)
+        inputs.occluders->voxels(settings_["radius"] / settings_["voxels"])
+            .bind(voxelsUnit, voxelsBinding);
+    if (reads & tree)
+        inputs.tree().bind(treeBinding);
 }
 
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
@@ -399,7 +444,8 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
         return;
     }
     gl::State state;
-    state.add = pass.stage == Stage::splat;
+    state.add = drawsObjects(pass);
+    state.cullBack = pass.stage == Stage::boxes;
     state.apply();
     for (int layer = 0; layer < target.slices().layers; ++layer) {
         target.bind(0, layer);
@@ -407,7 +453,10 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
             program.set("layer", layer);
         if (state.add) {
             target.clear();
-            triangle.drawQuads(inputs.spheres().count());
+            if (pass.stage == Stage::splat)
+                triangle.drawQuads(inputs.spheres().count());
+            else
+                triangle.drawBoxes(inputs.occluders->triangles().count());
         } else {
             triangle.draw();
         }

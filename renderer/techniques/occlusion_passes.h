@@ -1,10 +1,12 @@
 #pragma once
 
 #include "renderer/frame/light.h"
+#include "renderer/frame/triangle_buffers.h"
 #include "renderer/techniques/accumulation.h"
 #include "renderer/techniques/further_layers.h"
 #include "renderer/techniques/proxy_spheres.h"
 #include "renderer/techniques/reduction.h"
+#include "renderer/techniques/scene_occluders.h"
 #include "renderer/techniques/settings.h"
 
 #include <functional>
@@ -18,14 +20,16 @@ enum class Writes { value, fetches };
 
 // The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
 // technique's file, and a main that calls the pass's function. With `level` 1 it is the text for
-// every level after the first. The vertex shader of a splat pass comes from splatShader().
+// every level after the first. The vertex shader of a pass over objects comes from objectShader().
 gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0,
                           Writes writes = Writes::value);
-gl::ShaderText splatShader(const Settings& settings);
+gl::ShaderText objectShader(const Settings& settings, const Pass& pass);
 gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 0,
                         Writes writes = Writes::value);
 // The passes that these settings switch on, in order.
 std::vector<const Pass*> enabledPasses(const Settings& settings);
+// Whether the pass runs once for each sphere or triangle, all added up.
+bool drawsObjects(const Pass& pass);
 // What the pass writes under these settings.
 gl::Format formatOf(const Settings& settings, const Pass& pass);
 
@@ -55,6 +59,12 @@ struct OcclusionInputs {
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
     Peel peel = {};
+    const SceneOccluders* occluders = nullptr; // makes of them what is asked for, then
+    std::function<const TriangleBuffers&()> tree = {};
+    // Visibility within a radius (metres) by so many rays a pixel, in red, as large as the
+    // G-buffer; good until the next call (renderer/reference/few_rays.h).
+    std::function<const gl::Texture&(const GBuffer&, const Frame&, float radius, int rays)> traced =
+        {};
 };
 
 // Called after each pass has been issued, for timing and counting. The textures that the pass read
