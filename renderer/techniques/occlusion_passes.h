@@ -54,7 +54,7 @@ struct OcclusionInputs {
     };
 
     const GBuffer& gbuffer;
-    const Frame& frame; // the one that is bound
+    Frame frame; // the one that is bound
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
     Peel peel = {};
@@ -109,8 +109,7 @@ class OcclusionPasses {
     void bindInputs(const OcclusionInputs& inputs) const;
     void run(const Step& step, const OcclusionInputs& inputs) const;
 
-    const gl::Texture& oneFrame(const OcclusionInputs& inputs, const Frame& frame,
-                                const PassObserver& issued) const;
+    const gl::Texture& oneFrame(const OcclusionInputs& inputs, const PassObserver& issued) const;
 
     mutable std::optional<Reduction> reduction_; // keeps its frame
     FurtherLayers layers_;

@@ -45,7 +45,8 @@ constexpr Parameter voxelParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr auto voxelPasses =
     gatherAndBlur([](const Settings& s) { return 2.0 + s["cones"] * s["steps"]; }, normalBlur);
