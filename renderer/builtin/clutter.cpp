@@ -190,17 +190,19 @@ Shape mug() {
 }
 
 Shape plate(float radius) {
-    return lathe({{0, 0.002F},
-                  {0.55F * radius, 0.002F},
-                  {0.57F * radius, 0},
-                  {0.60F * radius, 0.002F},
-                  {0.97F * radius, 0.017F},
-                  {radius, 0.0185F},
-                  {0.97F * radius, 0.0205F},
-                  {0.62F * radius, 0.008F},
-                  {0.5F * radius, 0.006F},
-                  {0, 0.006F}},
-                 40);
+    Shape shape = lathe({{0, 0.002F},
+                         {0.55F * radius, 0.002F},
+                         {0.57F * radius, 0},
+                         {0.60F * radius, 0.002F},
+                         {0.97F * radius, 0.017F},
+                         {radius, 0.0185F},
+                         {0.97F * radius, 0.0205F},
+                         {0.62F * radius, 0.008F},
+                         {0.5F * radius, 0.006F},
+                         {0, 0.006F}},
+                        40);
+    projectUv(shape); // a lathe's texture shrinks to a star in the middle
+    return shape;
 }
 
 Shape vase(float height) {
