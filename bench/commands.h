@@ -15,7 +15,8 @@ struct Command {
     std::function<int()> run;
 };
 
-std::vector<Command> viewCommands(CLI::App& app);      // rays, normals, thickness, passes: one view
+std::vector<Command>
+viewCommands(CLI::App& app); // rays, normals, thickness, layers, passes: one view
 std::vector<Command> sweepCommands(CLI::App& app);     // sweep, merge, page, ablation: a study
 std::vector<Command> chooseCommands(CLI::App& app);    // choose
 std::vector<Command> stabilityCommands(CLI::App& app); // stability

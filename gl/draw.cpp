@@ -75,6 +75,11 @@ void ScreenTriangle::drawQuads(int count) const {
     glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count);
 }
 
+void ScreenTriangle::drawBoxes(int count) const {
+    glBindVertexArray(array_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 36 * count);
+}
+
 void compute(int groupsX, int groupsY) {
     glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY), 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT |

@@ -55,6 +55,7 @@ class ScreenTriangle {
     ScreenTriangle() : array_(GL_NONE) {}
     void draw() const; // one triangle that covers the bound target (shaders/screen.vert)
     void drawQuads(int count) const; // one quad per gl_InstanceID (shaders/splat.vert)
+    void drawBoxes(int count) const; // 36 vertices each (shaders/box.vert)
 
   private:
     VertexArray array_;

@@ -159,6 +159,23 @@ Texture filteredTexture(std::span<const FloatLevel> levels) {
     return texture;
 }
 
+Texture volumeTexture(std::span<const VolumeLevel> levels) {
+    Texture texture(GL_TEXTURE_3D);
+    const auto count = static_cast<GLint>(levels.size());
+    glTextureStorage3D(texture.name(), count, GL_RGBA8, levels[0].width, levels[0].height,
+                       levels[0].depth);
+    for (GLint i = 0; i < count; ++i) {
+        const VolumeLevel& level = levels[static_cast<std::size_t>(i)];
+        glTextureSubImage3D(texture.name(), i, 0, 0, 0, level.width, level.height, level.depth,
+                            GL_RGBA, GL_UNSIGNED_BYTE, level.rgba.data());
+    }
+    setParameter(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
+    setParameter(texture, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        setParameter(texture, wrap, GL_CLAMP_TO_BORDER); // whose colour is 0
+    return texture;
+}
+
 Texture floatTexture(int width, int height, std::span<const float> values) {
     Texture texture = targetTexture(width, height, Format::r32f, "values");
     writeFloats(texture, width, height, values);

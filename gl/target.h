@@ -50,6 +50,14 @@ struct FloatLevel {
 };
 Texture filteredTexture(std::span<const FloatLevel> levels);
 
+// A volume of four bytes each, 0 ... 1, x running fastest, filtered within a level, with the levels
+// nearest to those asked for; outside it is 0. Each level is half as large as the one before.
+struct VolumeLevel {
+    int width = 0, height = 0, depth = 0;
+    std::span<const std::uint8_t> rgba;
+};
+Texture volumeTexture(std::span<const VolumeLevel> levels);
+
 // One channel, rows from the bottom, read as targetTexture's are.
 Texture floatTexture(int width, int height, std::span<const float> values);
 

@@ -52,7 +52,7 @@ Subject::Subject(const Scene& scene)
     : Subject(scene, std::make_shared<const Scene>(geometryOf(scene))) {}
 
 Subject::Subject(const Scene& scene, std::shared_ptr<const Scene> geometry)
-    : spheres_(geometry), triangles_(geometry), traced_(geometry), scene_(scene),
+    : spheres_(geometry), occluders_(scene), triangles_(geometry), traced_(geometry), scene_(scene),
       lighting_(whiteLight(), scene_, std::filesystem::path()) {}
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
@@ -109,9 +109,10 @@ const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& p
         return {*seen.light, subject_.lighting()};
     };
     bindFrame(seen.frameBlock);
-    return passes.visibility({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()),
-                              std::cref(subject_.triangles()), std::cref(subject_.traced())},
-                             issued);
+    return passes.next({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()),
+                        subject_.peel(), &subject_.occluders(), std::cref(subject_.triangles()),
+                        std::cref(subject_.traced())},
+                       issued);
 }
 
 Image Probe::visibility(const Settings& settings) const {
@@ -120,6 +121,14 @@ Image Probe::visibility(const Settings& settings) const {
 }
 
 Image Probe::visibility(const Settings& settings, OcclusionPasses& passes, int beyond) const {
+    passes.set(settings);
+    passes.forget();
+    for (int frame = 1; frame < accumulatedFrames(settings); ++frame)
+        run(settings, passes, beyond);
+    return next(settings, passes, beyond);
+}
+
+Image Probe::next(const Settings& settings, OcclusionPasses& passes, int beyond) const {
     Image image{width_, height_, 1, {}};
     if (settings.technique().passes.empty()) {
         image.pixels.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),

@@ -23,6 +23,8 @@ class Subject {
     const GBufferPass& pass() const { return pass_; }
     const Lighting& lighting() const { return lighting_; }
     const SceneSpheres& spheres() const { return spheres_; }
+    Peel peel() const { return peelOf(pass_, scene_); }
+    const SceneOccluders& occluders() const { return occluders_; }
     const SceneTriangles& triangles() const { return triangles_; }
     const FewRays& traced() const { return traced_; }
 
@@ -31,6 +33,7 @@ class Subject {
     Subject(const Scene& scene, std::shared_ptr<const Scene> geometry);
 
     SceneSpheres spheres_;
+    SceneOccluders occluders_;
     SceneTriangles triangles_;
     FewRays traced_;
     GpuScene scene_;
@@ -60,7 +63,11 @@ class Probe {
     Image visibility(const Settings& settings, OcclusionPasses& passes, int beyond = 0) const;
     OcclusionPasses passesFor(const Settings& settings, int beyond = 0) const;
 
-    // The same without fetching the picture: what there is to time.
+    // The same of the next frame of a moving picture, which goes on from the passes' frame before
+    // (OcclusionPasses::next).
+    Image next(const Settings& settings, OcclusionPasses& passes, int beyond = 0) const;
+
+    // The next frame without fetching the picture: what there is to time.
     const gl::Texture& run(const Settings& settings, const OcclusionPasses& passes, int beyond = 0,
                            const PassObserver& issued = {}) const;
     void drawGBuffer() const; // draws the G-buffer again, to be timed

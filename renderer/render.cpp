@@ -123,8 +123,8 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
     for (const Pass* pass : enabledPasses(settings)) {
         for (int l = 0; l < (pass->levels > 1 ? 2 : 1); ++l)
             hash.add(passShader(settings, *pass, l).text());
-        if (pass->stage == Stage::splat)
-            hash.add(splatShader(settings).text());
+        if (drawsObjects(*pass))
+            hash.add(objectShader(settings, *pass).text());
     }
     if (downscaleOf(settings) > 1)
         hash.add(Reduction::reduceShader().text() + Reduction::upsampleShader().text());
@@ -315,6 +315,8 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                                return {light, lighting};
                                            },
                                            std::cref(stage_->subject->spheres()),
+                                           stage_->subject->peel(), &stage_->subject->occluders(),
+
                                            std::cref(stage_->subject->triangles()),
                                            std::cref(stage_->subject->traced())});
         clock.mark(times_.occlusion);

@@ -99,8 +99,10 @@ install_missing() {
     step "installing ${#missing[@]} packages" count_apt install_packages "${missing[@]}"
 }
 
+# OBSCURA_PRECOMPILED=ON is .ci/run's (CMakeLists.txt).
 configure() {
-    step "configuring" count_nothing cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release
+    step "configuring" count_nothing cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+        -DOBSCURA_PRECOMPILED="${OBSCURA_PRECOMPILED:-OFF}"
 }
 
 # build_targets TARGET...: configures once, then builds; nothing to do takes a second.

@@ -1,5 +1,6 @@
 #include "viewer/application.h"
 
+#include "viewer/meter.h"
 #include "viewer/navigation.h"
 #include "viewer/presets.h"
 #include "viewer/seen.h"
@@ -45,6 +46,8 @@ State stateOf(const CommandLine& line) {
     state.layout = line.layout.value_or(panes == 1  ? Layout::single
                                         : panes > 2 ? Layout::grid
                                                     : Layout::split);
+    if (state.layout == Layout::single)
+        state.selected = 0;
     return state;
 }
 
@@ -95,6 +98,21 @@ std::vector<View> Application::storedOf(const View& view) try {
     return {};
 }
 
+// Sets the exposure by the first pane's picture, where it is off by more than some stops, and that
+// of the views that came with the scene: rooms are darker than the sky outside.
+void Application::meter(double within) {
+    if (!drawn_ || drawn_->wanted.show != Show::lit || drawn_->panes.empty())
+        return;
+    const Wanted& wanted = drawn_->wanted;
+    const double exposure = meteredExposure(imageOf(*drawn_->panes.front().picture),
+                                            wanted.level.curve, wanted.view.exposure);
+    if (std::abs(exposure - wanted.view.exposure) <= within)
+        return;
+    state_.view.exposure = exposure;
+    for (std::size_t i = 0; i < state_.views.size() && i <= opened_->cameras.size(); ++i)
+        state_.views[i].exposure = exposure;
+}
+
 // What the command line says of the view counts for the scene that it names, and only once.
 void Application::takeNews() {
     status_ = worker_->status();
@@ -121,6 +139,12 @@ void Application::takeNews() {
         line_.camera.reset();
         line_.radius.reset();
         line_.views.clear();
+        metering_ = line_.exposure == 0;
+    }
+    if (metering_ && drawn_ && drawn_->wanted.scene == opened_->id) {
+        metering_ = false;
+        if (drawn_->wanted.level.name != "low") // whose light is the same everywhere
+            meter(1);
     }
     if (status_.error != lastError_) {
         lastError_ = status_.error;

@@ -59,6 +59,7 @@ class Application {
     void storePresentView();
     void forgetChosenView();
     void startTest();
+    void meter(double within);
     void say(const std::string& text, bool error = false);
     Wanted wanted() const;
 
@@ -80,9 +81,10 @@ class Application {
     Hand hand_;
     Box area_;
     double wakeIn_ = 0, lastFly_ = 0;
-    int settling_ = 4;     // frames that are still to be drawn, whatever happens
-    bool pressed_ = false; // a key, in this frame
-    std::string flown_;    // keys of flying that were pressed since the last frame
+    int settling_ = 4;      // frames that are still to be drawn, whatever happens
+    bool pressed_ = false;  // a key, in this frame
+    bool metering_ = false; // the first picture of a scene is to say how it is exposed
+    std::string flown_;     // keys of flying that were pressed since the last frame
     int frames_ = 0;
     std::unique_ptr<TestRun> test_;
     Uploads uploads_;

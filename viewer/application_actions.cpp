@@ -66,6 +66,8 @@ void Application::carryOut(const Requests& requests) try {
         browser_.open = true;
     if (requests.frame && opened_)
         frameScene();
+    if (requests.meter)
+        meter(0);
     if (requests.copy) {
         window_.copyText(*requests.copy);
         say("Copied: " + *requests.copy);

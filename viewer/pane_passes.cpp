@@ -120,14 +120,22 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
                                      std::cref(subject.spheres()),
+                                     subject.peel(),
+                                     &subject.occluders(),
                                      std::cref(subject.triangles()),
                                      std::cref(subject.traced())};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
-            pane.passes.visibility(inputs);
+            pane.passes.next(inputs);
             clock.mark();
         }
-        pane.visibility = &pane.passes.visibility(inputs, [&](const Pass& pass) {
+        // Of the frames that a still picture takes, the last one is timed.
+        pane.passes.forget();
+        for (int frame = 1; frame < accumulatedFrames(pane.settings); ++frame) {
+            pane.passes.next(inputs);
+            clock.mark();
+        }
+        pane.visibility = &pane.passes.next(inputs, [&](const Pass& pass) {
             const std::size_t piece = clock.mark();
             if (pane.times.empty())
                 pane.firstPiece = piece;

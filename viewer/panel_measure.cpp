@@ -51,8 +51,9 @@ void historyLine(Ui& ui, const std::deque<float>& values, ImU32 colour, float he
                                             faded(colour, 0.8F), 0, ui.px(1.2));
 }
 
-void paneTitle(Moment& moment, int pane, const std::string& right) {
+void paneTitle(Moment& moment, int place, const std::string& right) {
     Ui& ui = moment.ui;
+    const int pane = paneAt(moment.state, place);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float full = ImGui::GetContentRegionAvail().x;
     const auto index = static_cast<std::size_t>(pane);
@@ -95,7 +96,9 @@ void times(Moment& moment) {
         ImGui::PushID(pane);
         paneTitle(moment, pane, fmt::format("{:.3g} ms", drawn.panes[index].ms));
         passBar(ui, drawn.panes[index], longest, ui.px(9));
-        historyLine(ui, moment.history.panes[index].ms, colours::panes[index], ui.px(20));
+        historyLine(ui, moment.history.panes[index].ms,
+                    colours::panes[static_cast<std::size_t>(paneAt(moment.state, pane))],
+                    ui.px(20));
         ImGui::PopID();
     }
     workLegend(ui);
@@ -125,8 +128,9 @@ void qualityTable(Moment& moment) {
         tooltip(ui, tips[static_cast<std::size_t>(column)]);
     }
     ImGui::PopStyleColor();
-    for (int pane = 0; pane < static_cast<int>(moment.drawn->panes.size()); ++pane) {
-        const auto& quality = moment.drawn->panes[static_cast<std::size_t>(pane)].quality;
+    for (int place = 0; place < static_cast<int>(moment.drawn->panes.size()); ++place) {
+        const auto& quality = moment.drawn->panes[static_cast<std::size_t>(place)].quality;
+        const int pane = paneAt(moment.state, place);
         ImGui::TableNextRow();
         ImGui::TableSetColumnIndex(0);
         ImGui::PushFont(ui.theme.bold);

@@ -64,7 +64,8 @@ std::string figuresOf(const Moment& moment, int pane) {
 // Letter and title, and below it what it costs and how wrong it is.
 void caption(Moment& moment, const PlacedPane& pane, bool right) {
     Ui& ui = moment.ui;
-    const Settings& settings = moment.state.panes[static_cast<std::size_t>(std::max(pane.pane, 0))];
+    const int shown = paneAt(moment.state, std::max(pane.pane, 0));
+    const Settings& settings = moment.state.panes[static_cast<std::size_t>(shown)];
     const float room = static_cast<float>(pane.clip.width) - ui.px(20);
     if (room < ui.px(60))
         return;
@@ -86,16 +87,16 @@ void caption(Moment& moment, const PlacedPane& pane, bool right) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled({x, y}, {x + width, y + height}, faded(colours::backdrop, 0.78F), ui.px(6));
     ImGui::PushFont(ui.theme.bold);
-    list.AddText({x + ui.px(9), y + ui.px(6)}, colours::panes[static_cast<std::size_t>(pane.pane)],
-                 letterOf(pane.pane).c_str());
+    list.AddText({x + ui.px(9), y + ui.px(6)}, colours::panes[static_cast<std::size_t>(shown)],
+                 letterOf(shown).c_str());
     ImGui::PopFont();
     list.AddText({x + ui.px(27), y + ui.px(6)}, colours::text, title.c_str());
     ImGui::PushFont(ui.theme.small);
     list.AddText({x + ui.px(9), y + ui.px(9) + line}, colours::muted, figures.c_str());
     ImGui::PopFont();
-    ui.places["caption " + letterOf(pane.pane)] = {static_cast<double>(x), static_cast<double>(y),
-                                                   static_cast<double>(width),
-                                                   static_cast<double>(height)};
+    ui.places["caption " + letterOf(shown)] = {static_cast<double>(x), static_cast<double>(y),
+                                               static_cast<double>(width),
+                                               static_cast<double>(height)};
 }
 
 // The colours that an error, JOD or difference has, and what they mean. Dragging over it changes

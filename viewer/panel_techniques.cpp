@@ -47,14 +47,13 @@ void tabs(Moment& moment) {
                                         {low.x + full, low.y + ui.px(34)}, colours::line);
 }
 
-// Which pane the settings below are of.
+// Which pane the settings below are of; where one is seen alone, which of all.
 void paneButtons(Moment& moment) {
     Ui& ui = moment.ui;
     State& state = moment.state;
-    const int count = panesOf(state.layout);
+    const int count = state.layout == Layout::single ? static_cast<int>(state.panes.size())
+                                                     : panesOf(state.layout);
     state.selected = std::min(state.selected, count - 1);
-    if (count == 1)
-        return;
     const float gap = ui.px(6), width = (ImGui::GetContentRegionAvail().x - gap) / 2;
     for (int pane = 0; pane < count; ++pane) { // in two columns, as in the grid
         if (pane % 2 == 1)

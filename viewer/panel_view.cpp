@@ -131,6 +131,9 @@ void lightRows(Moment& moment) {
            {"Exposure", scaleBetween(-8, 8), 0, Unit::ratio,
             "In stops: light is scaled by 2 to this power before the display curve"},
            state.view.exposure);
+    if (button(ui, "Meter", "Sets the exposure by the picture that is shown lit, as a camera does",
+               ImGui::GetContentRegionAvail().x))
+        moment.requests.meter = true;
     static const std::vector<std::string> curves = [] {
         std::vector<std::string> words;
         for (const std::string& name : curveNames())

@@ -34,7 +34,7 @@ struct History {
 // What the user asked for that is no value to be set.
 struct Requests {
     std::optional<SceneChoice> open;
-    bool browse = false, frame = false, screenshot = false;
+    bool browse = false, frame = false, screenshot = false, meter = false;
     bool addPair = false, copySettings = false, writeSweep = false;
     bool startTest = false, stopTest = false, storeView = false, forgetView = false;
     std::optional<std::string> copy; // to the clipboard

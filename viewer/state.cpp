@@ -25,6 +25,10 @@ State::State() : level(levelNamed("moderate")) {
         panes.emplace_back(technique(id));
 }
 
+int paneAt(const State& state, int place) {
+    return state.layout == Layout::single ? state.selected : place;
+}
+
 Wanted wantedOf(const State& state, const Box& area, double gap) {
     Wanted wanted;
     wanted.scene = state.sceneId;
@@ -33,7 +37,8 @@ Wanted wantedOf(const State& state, const Box& area, double gap) {
     wanted.normals = state.normals;
     wanted.textures = state.textures;
     std::tie(wanted.width, wanted.height) = pictureSize(state.layout, area, gap, state.renderScale);
-    wanted.panes.assign(state.panes.begin(), state.panes.begin() + panesOf(state.layout));
+    for (int place = 0; place < panesOf(state.layout); ++place)
+        wanted.panes.push_back(state.panes[static_cast<std::size_t>(paneAt(state, place))]);
     wanted.show = state.show;
     wanted.reference = state.reference;
     wanted.integral = state.integral;

@@ -27,7 +27,7 @@ struct State {
     double renderScale = 1;
 
     std::vector<Settings> panes; // always four; the layout says how many are seen
-    int selected = 1;            // the pane whose settings are shown
+    int selected = 1;            // the pane whose settings are shown, and which is seen alone
     bool sameSamples = false;    // all panes make as many fetches as the first
 
     Show show = Show::lit;
@@ -49,6 +49,9 @@ struct State {
     bool panels = true, help = false;
     Tab tab = Tab::techniques;
 };
+
+// Which of the panes is seen in a place of the layout: the selected one where only one is seen.
+int paneAt(const State& state, int place);
 
 // What is to be drawn in panes of such a place.
 Wanted wantedOf(const State& state, const Box& area, double gap);

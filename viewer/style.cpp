@@ -4,6 +4,7 @@
 
 #include <imgui_freetype.h>
 
+#include <cmath>
 #include <filesystem>
 
 namespace obscura {
@@ -71,11 +72,12 @@ Theme makeTheme(float scale) {
     io.Fonts->FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
     Theme theme;
     theme.scale = scale;
-    theme.text = font("DejaVuSans.ttf", 13.5F * scale);
-    theme.small = font("DejaVuSans.ttf", 11.5F * scale);
-    theme.bold = font("DejaVuSans-Bold.ttf", 13.5F * scale);
-    theme.mono = font("DejaVuSansMono.ttf", 11.5F * scale);
-    theme.title = font("DejaVuSans.ttf", 20 * scale);
+    // Whole pixels, or every second line of a text would lie between two.
+    theme.text = font("DejaVuSans.ttf", std::round(13.5F * scale));
+    theme.small = font("DejaVuSans.ttf", std::round(11.5F * scale));
+    theme.bold = font("DejaVuSans-Bold.ttf", std::round(13.5F * scale));
+    theme.mono = font("DejaVuSansMono.ttf", std::round(11.5F * scale));
+    theme.title = font("DejaVuSans.ttf", std::round(20 * scale));
 
     ImGuiStyle style;
     style.WindowPadding = {12, 10};

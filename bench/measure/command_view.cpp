@@ -1,6 +1,7 @@
 #include "base/arguments.h"
 #include "base/progress.h"
 #include "bench/commands.h"
+#include "bench/measure/layers.h"
 #include "bench/measure/measured_view.h"
 #include "bench/measure/normals.h"
 #include "bench/measure/rays.h"
@@ -97,6 +98,19 @@ int runThickness(const Options& options) {
     return 0;
 }
 
+int runLayers(const Options& options) {
+    const Scene scene = sceneOf(options);
+    const gl::Context context;
+    const Subject subject(scene);
+    const Probe probe(subject, cameraOf(options), options.width, options.height, Normals::smooth,
+                      options.settings.seed);
+    for (const LayersFloor& floor : measureLayers(scene, probe, traceSettingsOf(options)))
+        fmt::print("{} layer{}, guard band {:g}: RMSE {:.4f}, bias {:+.4f}\n", floor.layers,
+                   floor.layers > 1 ? "s" : "", floor.guardBand, floor.error.rmse,
+                   floor.error.bias);
+    return 0;
+}
+
 int runPasses(const Options& options) {
     const Scene scene = sceneOf(options);
     const gl::Context context;
@@ -142,9 +156,11 @@ std::vector<Command> viewCommands(CLI::App& app) {
         app.add_subcommand("normals", "what face, smooth and mapped normals do to visibility");
     CLI::App* thick = app.add_subcommand(
         "thickness", "how far the depth buffer's reference is from the scene's, by its thickness");
+    CLI::App* layer = app.add_subcommand(
+        "layers", "the least error of what knows all that one, two or three layers of depth show");
     CLI::App* pass = app.add_subcommand(
         "passes", "what each pass of some techniques takes, all timed in turn on one view");
-    for (CLI::App* command : {ray, normal, thick, pass}) {
+    for (CLI::App* command : {ray, normal, thick, layer, pass}) {
         command
             ->add_option("--scene", options->scene, "built-in scene or file in the scenes folder")
             ->capture_default_str();
@@ -162,7 +178,7 @@ std::vector<Command> viewCommands(CLI::App& app) {
             ->check(numberFrom(1e-4, 1e4))
             ->capture_default_str();
     }
-    for (CLI::App* command : {ray, normal, thick}) {
+    for (CLI::App* command : {ray, normal, thick, layer}) {
         command->add_option("--rays", options->settings.rays, "per pixel")->capture_default_str();
         command->add_option("--integral", options->integral)
             ->check(CLI::IsMember(integralNames()))
@@ -177,6 +193,7 @@ std::vector<Command> viewCommands(CLI::App& app) {
     return {{ray, [options] { return runRays(*options); }},
             {normal, [options] { return runNormals(*options); }},
             {thick, [options] { return runThickness(*options); }},
+            {layer, [options] { return runLayers(*options); }},
             {pass, [options] { return runPasses(*options); }}};
 }
 

@@ -38,27 +38,38 @@ class Reprojector {
     Reprojector(const Surfaces& from, const Surfaces& to)
         : from_(from), to_(to), toFromFrom_(to.frame.viewFromWorld * from.frame.worldFromView) {}
 
-    glm::vec2 place(int x, int y) const {
+    struct Found {
+        glm::vec2 place{-1, -1};
+        std::int64_t seen = -1;
+    };
+
+    Found find(int x, int y) const {
         const std::size_t i = from_.index(x, from_.height - 1 - y);
         if (from_.empty(i))
-            return missing;
+            return {};
         const glm::vec3 position = from_.position(
             static_cast<float>(x), static_cast<float>(from_.height - 1 - y), from_.depth[i]);
         const glm::mat3 turn(toFromFrom_);
         const Point point{glm::vec3(toFromFrom_ * glm::vec4(position, 1)), turn * from_.normal[i],
                           turn * from_.faceNormal[i]};
         if (-point.position.z < to_.frame.depth.x)
-            return missing;
-        const glm::vec2 place = snapped(pixelOf(point.position));
-        for (const Tap& tap : tapsAt(place))
-            if (tap.weight > 0 && !shows(tap, point))
-                return missing;
-        return place;
+            return {};
+        Found found{snapped(pixelOf(point.position)), -1};
+        float nearest = 0;
+        bool all = true;
+        for (const Tap& tap : tapsAt(found.place)) {
+            if (!(tap.weight > 0))
+                continue;
+            all &= shows(tap, point, 0.5f, 0.906f); // the cosine of 25 degrees
+            if (tap.weight > nearest && shows(tap, point, 2, -1)) {
+                nearest = tap.weight;
+                found.seen = static_cast<std::int64_t>(tap.y) * to_.width + tap.x;
+            }
+        }
+        return all ? found : Found{{-1, -1}, found.seen};
     }
 
   private:
-    static constexpr glm::vec2 missing{-1, -1};
-
     glm::vec2 pixelOf(glm::vec3 position) const {
         const Frame& frame = to_.frame;
         const glm::vec2 perDepth = glm::vec2(position) / -position.z;
@@ -67,7 +78,8 @@ class Reprojector {
         return {uv.x * frame.size.x - 0.5f, (1 - uv.y) * frame.size.y - 0.5f};
     }
 
-    bool shows(const Tap& tap, const Point& point) const {
+    // The point's surface, within so many pixels' widths of its tangent plane.
+    bool shows(const Tap& tap, const Point& point, float pixels, float leastCosine) const {
         if (tap.x < 0 || tap.y < 0 || tap.x >= to_.width || tap.y >= to_.height)
             return false;
         const int row = to_.height - 1 - tap.y;
@@ -77,8 +89,7 @@ class Reprojector {
         const glm::vec3 found =
             to_.position(static_cast<float>(tap.x), static_cast<float>(row), to_.depth[i]);
         const float pixel = to_.depth[i] * std::abs(to_.frame.viewFromUv.y) * to_.frame.size.w;
-        constexpr float leastCosine = 0.906f; // of 25 degrees
-        return std::abs(glm::dot(point.faceNormal, found - point.position)) < pixel / 2 &&
+        return std::abs(glm::dot(point.faceNormal, found - point.position)) < pixels * pixel &&
                glm::dot(point.normal, to_.normal[i]) > leastCosine;
     }
 
@@ -92,8 +103,15 @@ class Reprojector {
 Reprojection::Reprojection(const Surfaces& from, const Surfaces& to) {
     const Reprojector reprojector(from, to);
     for (int y = 0; y < from.height; ++y)
-        for (int x = 0; x < from.width; ++x)
-            places_.push_back(reprojector.place(x, y));
+        for (int x = 0; x < from.width; ++x) {
+            const auto found = reprojector.find(x, y);
+            places_.push_back(found.place);
+            seen_.push_back(found.seen);
+        }
+}
+
+std::optional<std::size_t> Reprojection::seenAt(std::size_t pixel) const {
+    return seen_[pixel] < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(seen_[pixel]));
 }
 
 float Reprojection::fetch(const Image& image, std::size_t pixel) const {

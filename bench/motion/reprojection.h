@@ -3,6 +3,8 @@
 #include "image/image.h"
 #include "renderer/frame/surfaces.h"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace obscura {
@@ -25,9 +27,14 @@ class Reprojection {
     // and a blur of what is not. A pattern of s pixels a period that moves by half a pixel loses
     // 1 - cos(pi / s) of its amplitude: all of a checkerboard, 5 % at ten pixels.
     float fetch(const Image& image, std::size_t pixel) const;
+    // The pixel of the other frame that shows the point's surface, the nearest of those around its
+    // place that are within two pixels' widths of its tangent plane, whatever their normals.
+    // Nothing where there is none: the point was hidden, or outside of the frame.
+    std::optional<std::size_t> seenAt(std::size_t pixel) const;
 
   private:
-    std::vector<glm::vec2> places_; // -1 where the point is not visible
+    std::vector<glm::vec2> places_;  // -1 where the point is not visible
+    std::vector<std::int64_t> seen_; // pixels; -1: none
 };
 
 } // namespace obscura

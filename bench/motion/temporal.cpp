@@ -44,6 +44,9 @@ class Measurement {
           shots_(study.scene, study.configurations, study.effort.width, study.effort.height),
           all_(study.configurations.size()) {
         std::iota(all_.begin(), all_.end(), std::size_t{0});
+        for (const std::size_t i : all_)
+            (accumulatedFrames(study.configurations[i].settings) > 1 ? accumulating_ : single_)
+                .push_back(i);
     }
 
     std::vector<StabilityCell> run() {
@@ -69,32 +72,41 @@ class Measurement {
         return test.camera(study_.start, frame, study_.effort.frames);
     }
 
-    // With truth.
-    Shot takeInMotion(const Camera& camera) const {
-        Shot shot = shots_.take(camera, noiseSeed, all_);
+    Image truthOf(const Shot& shot) const {
         TraceSettings settings;
         settings.radius = study_.radius;
         settings.rays = study_.effort.rays;
         settings.seed = truthSeed;
-        shot.truth = shots_.truth(shot.surfaces, settings);
-        return shot;
+        return shots_.truth(shot.surfaces, settings);
     }
 
     void measureStill(const TemporalTest& test) {
         std::vector<StillNoise> noises(all_.size());
-        Shot shot;
+        std::vector<Image> last(all_.size());
+        std::vector<bool> shown;
+        const auto add = [&](Shot shot, std::span<const std::size_t> which) {
+            for (std::size_t i = 0; i < which.size(); ++i) {
+                noises[which[i]].add(shot.visibilities[i]);
+                last[which[i]] = std::move(shot.visibilities[i]);
+            }
+            shown = std::move(shot.shown);
+        };
         for (int frame = 0; frame < study_.effort.frames; ++frame) {
             tell(test, frame);
-            shot = shots_.take(cameraOf(test, frame), noiseSeed + static_cast<std::uint64_t>(frame),
-                               all_);
-            for (const std::size_t i : all_)
-                noises[i].add(shot.visibilities[i]);
+            const Camera camera = cameraOf(test, frame);
+            if (!single_.empty())
+                add(shots_.take(camera, noiseSeed + static_cast<std::uint64_t>(frame), single_),
+                    single_);
+            if (!accumulating_.empty()) // whose noise cycles by itself
+                add(frame == 0 ? shots_.take(camera, noiseSeed, accumulating_)
+                               : shots_.next(camera, noiseSeed, accumulating_),
+                    accumulating_);
         }
         for (const std::size_t i : all_) {
             const Image deviation = noises[i].deviation();
-            const Magnitudes values = magnitudes(deviation, shot.shown);
+            const Magnitudes values = magnitudes(deviation, shown);
             const std::string picture =
-                writePicture(i, test, std::array{shot.visibilities[i], amplified(deviation)});
+                writePicture(i, test, std::array{last[i], amplified(deviation)});
             addCell(i, test, test.test.measure, values.mean(), picture,
                     values.percentile(1) > 0 ? "" : "no seed changes it");
             addCell(i, test, "deviation over frames, 99th percentile", values.percentile(0.99));
@@ -102,28 +114,38 @@ class Measurement {
     }
 
     void measureMotion(const TemporalTest& test) {
-        std::vector<MotionError> errors(all_.size());
+        std::vector<Errors> errors(all_.size());
         MotionRecord record{&test, {}, {}, {}};
         std::optional<Shot> last;
         std::optional<FrameStep> lastStep;
+        NewlySeen newly(static_cast<std::size_t>(study_.effort.width * study_.effort.height));
+        int unmoved = 0; // frames since the camera moved
         for (int frame = 0; frame < study_.effort.frames; ++frame) {
             tell(test, frame);
             const Camera camera = cameraOf(test, frame);
-            // The same view gives the same picture again, because no technique remembers earlier
-            // frames.
-            if (last && sameView(camera, cameraOf(test, frame - 1)))
+            const bool still = last && sameView(camera, cameraOf(test, frame - 1));
+            unmoved = still ? unmoved + 1 : 0;
+            // Before a still camera nothing changes, but what came into sight by its last move.
+            if (still && (!lastStep || unmoved >= NewlySeen::frames))
                 continue;
-            Shot shot = takeInMotion(camera);
-            std::optional<FrameStep> step;
-            if (last)
-                step = stepBetween(*last, shot);
-            for (const std::size_t i : all_)
-                if (step)
-                    errors[i].step(shot.visibilities[i], *step, lastStep ? &*lastStep : nullptr);
-                else
-                    errors[i].start(shot.visibilities[i]);
-            record.truths.push_back(shot.truth);
-            lastStep = std::move(step);
+            Shot shot =
+                last ? shots_.next(camera, noiseSeed, all_) : shots_.take(camera, noiseSeed, all_);
+            shot.truth = still ? last->truth : truthOf(shot);
+            if (last) {
+                FrameStep step = stepBetween(*last, shot);
+                newly.step(step.back);
+                addTruthErrors(camera, shot, newly, errors);
+                for (const std::size_t i : all_)
+                    if (!still)
+                        errors[i].motion.step(shot.visibilities[i], step,
+                                              lastStep ? &*lastStep : nullptr);
+                lastStep = std::move(step);
+            } else {
+                for (const std::size_t i : all_)
+                    errors[i].motion.start(shot.visibilities[i]);
+            }
+            if (!still)
+                record.truths.push_back(shot.truth);
             last = std::move(shot);
         }
         for (const std::size_t i : all_)
@@ -131,8 +153,37 @@ class Measurement {
         records_.push_back(std::move(record));
     }
 
-    void addMotionCells(std::size_t i, const MotionError& error, MotionRecord& record) {
+    // Of one configuration.
+    struct Errors {
+        MotionError motion;
+        TruthError everywhere, newlySeen; // against the truth
+        TruthError ghosts, newGhosts;     // against its own still picture; where it accumulates
+    };
+
+    static void add(const Image& visibility, const Image& truth, const std::vector<bool>& shown,
+                    const NewlySeen& newly, TruthError& everywhere, TruthError& newlySeen) {
+        for (std::size_t pixel = 0; pixel < shown.size(); ++pixel)
+            if (shown[pixel]) {
+                everywhere.add(visibility.pixels[pixel], truth.pixels[pixel]);
+                if (newly[pixel])
+                    newlySeen.add(visibility.pixels[pixel], truth.pixels[pixel]);
+            }
+    }
+
+    void addTruthErrors(const Camera& camera, const Shot& shot, const NewlySeen& newly,
+                        std::vector<Errors>& errors) const {
+        for (const std::size_t i : all_)
+            add(shot.visibilities[i], shot.truth, shot.shown, newly, errors[i].everywhere,
+                errors[i].newlySeen);
+        const std::vector<Image> stills = shots_.stills(camera, noiseSeed, accumulating_);
+        for (std::size_t k = 0; const std::size_t i : accumulating_)
+            add(shot.visibilities[i], stills[k++], shot.shown, newly, errors[i].ghosts,
+                errors[i].newGhosts);
+    }
+
+    void addMotionCells(std::size_t i, const Errors& errors, MotionRecord& record) {
         const TemporalTest& test = *record.test;
+        const MotionError& error = errors.motion;
         const Image& truth = record.truths[static_cast<std::size_t>(error.worstFrame())];
         record.unreal.push_back(error.unreal().mean());
         record.truthfulness.push_back(occlusion(error.worst()) / occlusion(truth));
@@ -146,6 +197,17 @@ class Measurement {
         addCell(i, test, "unreal change pixel by pixel, 99th percentile",
                 error.unrealAtPixels().percentile(0.99));
         addCell(i, test, "warping error", error.warpingError());
+        addCell(i, test, "error against the truth, RMSE", errors.everywhere.rmse());
+        if (errors.newlySeen.count() > 0)
+            addCell(i, test, errorNewlySeen, errors.newlySeen.rmse(), "",
+                    fmt::format("{:.1f} % of all points",
+                                100.0 * static_cast<double>(errors.newlySeen.count()) /
+                                    static_cast<double>(errors.everywhere.count())));
+        if (errors.ghosts.count() > 0)
+            addCell(i, test, "ghosts: difference from its still picture, RMSE",
+                    errors.ghosts.rmse());
+        if (errors.newGhosts.count() > 0)
+            addCell(i, test, "ghosts where newly seen, RMSE", errors.newGhosts.rmse());
         if (error.second().count() == 0)
             return;
         addCell(i, test, "second difference, mean", error.second().mean());
@@ -169,7 +231,7 @@ class Measurement {
     const TemporalStudy& study_;
     const TemporalProgress& progress_;
     Shots shots_;
-    std::vector<std::size_t> all_; // configurations
+    std::vector<std::size_t> all_, single_, accumulating_; // configurations
     std::vector<MotionRecord> records_;
     std::vector<StabilityCell> cells_;
     int testsDone_ = 0;

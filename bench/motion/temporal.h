@@ -9,6 +9,10 @@ namespace obscura {
 // Steadiness from frame to frame: one test per camera path (temporal_tests.h), measured as in
 // temporal_measures.h. Noise is used as in a game without temporal filtering: it keeps to its
 // pixels while the camera moves. Only in the test "still" does its seed change with every frame.
+// A configuration that accumulates frames (`accumulate`) is a game with such filtering: its noise
+// cycles in all tests, and before the first frame it has looked at the start for as many frames as
+// it accumulates. What it shows late, or of what hid a point before, is an error against the truth
+// where points are newly seen.
 //
 // The headline is reference-relative change, motion-compensated. Its plain form, pixel by pixel, is
 // given too, but it mostly shows how far a technique is from the truth, not how much it flickers:

@@ -70,7 +70,8 @@ std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Sh
     for (std::size_t frame = 0; frame < choice->record->truths.size(); ++frame) {
         const Camera camera =
             test.camera(study.start, static_cast<int>(frame), study.effort.frames);
-        Shot shot = shots.take(camera, noiseSeed, which);
+        Shot shot =
+            before ? shots.next(camera, noiseSeed, which) : shots.take(camera, noiseSeed, which);
         shot.truth = choice->record->truths[frame];
         if (before) {
             const FrameStep step = stepBetween(*before, shot);

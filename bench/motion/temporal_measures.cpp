@@ -127,4 +127,16 @@ Image MotionError::unrealPicture() const {
     return result;
 }
 
+void NewlySeen::step(const Reprojection& back) {
+    std::vector<int> ages(ages_.size(), 0);
+    for (std::size_t i = 0; i < ages.size(); ++i)
+        if (const auto before = back.seenAt(i))
+            ages[i] = std::min(ages_[*before] + 1, frames);
+    ages_ = std::move(ages);
+}
+
+double TruthError::rmse() const {
+    return count_ > 0 ? std::sqrt(squares_ / static_cast<double>(count_)) : missing;
+}
+
 } // namespace obscura

@@ -2,6 +2,7 @@
 
 #include "bench/motion/reprojection.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -88,6 +89,38 @@ class MotionError {
     int steps_ = 0, worstFrame_ = 0;
     double worstSum_ = -1;
     Image worst_;
+};
+
+// Which points came into sight not long ago, from behind an edge or the border: in one of the last
+// `frames` frames, this one included, no pixel near the point's place in the frame before showed
+// its surface.
+class NewlySeen {
+  public:
+    static constexpr int frames = 8;
+
+    // At first all has been seen for long.
+    explicit NewlySeen(std::size_t pixels) : ages_(pixels, frames) {}
+    void step(const Reprojection& back);
+
+    bool operator[](std::size_t pixel) const { return ages_[pixel] < frames; }
+
+  private:
+    std::vector<int> ages_; // frames since it came into sight, at most `frames`
+};
+
+// Visibility against the truth, over all pixels of all frames that were added.
+class TruthError {
+  public:
+    void add(float visibility, float truth) {
+        squares_ += std::pow(static_cast<double>(visibility) - static_cast<double>(truth), 2);
+        ++count_;
+    }
+    double rmse() const; // NaN where there was nothing
+    std::uint64_t count() const { return count_; }
+
+  private:
+    double squares_ = 0;
+    std::uint64_t count_ = 0;
 };
 
 } // namespace obscura

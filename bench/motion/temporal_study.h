@@ -32,6 +32,11 @@ struct TemporalStudy {
 // The name of the 99th percentile of the headline among the cells' measures.
 inline constexpr std::string_view unrealChange99 = "unreal change, 99th percentile";
 
+// The name of the error of points that came into sight in the last frames (NewlySeen): ghosts show
+// there.
+inline constexpr std::string_view errorNewlySeen =
+    "error where newly seen, in the last 8 frames, RMSE";
+
 // The measure of the only cell of a run whose picture moves (temporal_animation.h).
 inline constexpr std::string_view worstFlicker = "the worst flicker of the run";
 

@@ -2,8 +2,10 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace obscura::builtin {
 
@@ -53,6 +55,60 @@ Shape archedWall(const ArchedWall& wall) {
         shape.add(jamb);
         shape.add(jamb, at({0, 0, 0}, 180));
     }
+    projectUv(shape);
+    return shape;
+}
+
+namespace {
+
+// All coordinates at which something begins or ends, in order.
+std::vector<float> cutsOf(float low, float high, std::span<const Hole> holes, int axis) {
+    std::vector<float> cuts{low, high};
+    for (const Hole& hole : holes)
+        cuts.insert(cuts.end(), {hole.low[axis], hole.high[axis]});
+    std::sort(cuts.begin(), cuts.end());
+    cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+    return cuts;
+}
+
+// The parallelogram over two edges; faces along a x b.
+void addFlat(Shape& shape, glm::vec3 corner, glm::vec3 a, glm::vec3 b) {
+    shape.add(patch([=](glm::vec2 uv) { return corner + uv.x * a + uv.y * b; }, 1, 1, {1, 1}));
+}
+
+} // namespace
+
+Shape piercedWall(glm::vec3 size, std::span<const Hole> holes) {
+    const std::vector<float> xs = cutsOf(-size.x / 2, size.x / 2, holes, 0);
+    const std::vector<float> ys = cutsOf(0, size.y, holes, 1);
+    const auto isSolid = [&](std::size_t i, std::size_t j) { // cell (i, j) of the grid of cuts
+        if (i >= xs.size() - 1 || j >= ys.size() - 1)        // also below 0, which wraps round
+            return false;
+        const glm::vec2 middle(xs[i] + xs[i + 1], ys[j] + ys[j + 1]);
+        return std::none_of(holes.begin(), holes.end(), [&](const Hole& hole) {
+            return glm::all(glm::greaterThan(middle / 2.0F, hole.low)) &&
+                   glm::all(glm::lessThan(middle / 2.0F, hole.high));
+        });
+    };
+    Shape shape;
+    const glm::vec3 back(0, 0, -size.z);
+    for (std::size_t j = 0; j + 1 < ys.size(); ++j)
+        for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+            if (!isSolid(i, j))
+                continue;
+            const glm::vec3 x(xs[i + 1] - xs[i], 0, 0), y(0, ys[j + 1] - ys[j], 0);
+            const glm::vec3 corner(xs[i], ys[j], size.z / 2);
+            addFlat(shape, corner, x, y);
+            addFlat(shape, corner + back, y, x);
+            if (!isSolid(i - 1, j))
+                addFlat(shape, corner, y, back);
+            if (!isSolid(i + 1, j))
+                addFlat(shape, corner + x, back, y);
+            if (!isSolid(i, j - 1))
+                addFlat(shape, corner, back, x);
+            if (!isSolid(i, j + 1))
+                addFlat(shape, corner + y, x, back);
+        }
     projectUv(shape);
     return shape;
 }

@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-const std::array<std::string, 3> names{"sculpture", "atrium", "figures"};
+const std::array<std::string, 5> names{"sculpture", "atrium", "figures", "room", "garden"};
 
 template <typename T>
 void addBytes(Sha256& hash, const std::vector<T>& values) {
@@ -115,7 +115,8 @@ std::string contentSha256(const Scene& scene) {
 std::span<const std::string> builtinSceneNames() { return names; }
 
 Scene builtinScene(std::string_view name) {
-    constexpr std::array makers{&builtin::sculpture, &builtin::atrium, &builtin::figures};
+    constexpr std::array makers{&builtin::sculpture, &builtin::atrium, &builtin::figures,
+                                &builtin::room, &builtin::garden};
     static_assert(makers.size() == std::tuple_size_v<std::remove_const_t<decltype(names)>>);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())

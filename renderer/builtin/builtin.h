@@ -9,8 +9,10 @@
 namespace obscura {
 
 // Scenes made in code, so that a study runs with no download: "sculpture" (one object with deep
-// concavities), "atrium" (two colonnaded storeys, arches, steps, drapery, vases) and "figures"
-// (a pair of figures whose base colour carries painted-in occlusion). Metres, y up.
+// concavities), "atrium" (two colonnaded storeys, arches, steps, drapery, vases), "figures" (a pair
+// of figures whose base colour carries painted-in occlusion), "room" (furnished: thin legs, open
+// shelves, clutter) and "garden" (leaves cut out by alpha, blades of grass, thin bars); no setting
+// of any technique was tuned on the last two. Metres, y up.
 std::span<const std::string> builtinSceneNames();
 
 // An unknown name is an Error that gives the nearest. Its sha256 is contentSha256().

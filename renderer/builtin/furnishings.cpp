@@ -1,6 +1,6 @@
 #include "renderer/builtin/furnishings.h"
 
-#include "base/random.h"
+#include "renderer/builtin/noise.h"
 
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -12,16 +12,11 @@ namespace obscura::builtin {
 
 namespace {
 
-float smooth(float from, float to, float x) {
-    const float t = glm::clamp((x - from) / (to - from), 0.0F, 1.0F);
-    return t * t * (3 - 2 * t);
-}
-
 // The left panel, whose rail is at y = height; tied back at 45 % of the height.
 glm::vec3 curtainPoint(float width, float height, glm::vec2 uv) {
     const float down = uv.y, tie = 0.55F;
-    const float gathered = down < tie ? smooth(0, tie, down) : 1 - 0.55F * smooth(tie, 1, down);
-    const float across = width * (1 - 0.64F * gathered * (0.35F + 0.65F * smooth(0, 0.5F, down)));
+    const float gathered = down < tie ? ramp(0, tie, down) : 1 - 0.55F * ramp(tie, 1, down);
+    const float across = width * (1 - 0.64F * gathered * (0.35F + 0.65F * ramp(0, 0.5F, down)));
     // Cloth keeps its length: where the panel is narrow its folds are deep.
     const float depth = 0.018F + 0.055F * (1 - across / width);
     const float pleats = 4.5F, wave = glm::two_pi<float>() * pleats * uv.x;
@@ -58,7 +53,7 @@ Shape banner(float width, float back, float front, const Ledge& ledge) {
         const float s = glm::mix(-back, front, uv.y); // along the cloth, 0 on the rail
         const float hang = std::max(0.0F, std::abs(s) - quarter);
         const float angle = glm::clamp(s / round, -glm::half_pi<float>(), glm::half_pi<float>());
-        const float free = s > 0 ? smooth(0, front, hang) : 0.0F;
+        const float free = s > 0 ? ramp(0, front, hang) : 0.0F;
         const float fold = (0.012F + 0.03F * free) * std::min(1.0F, 4 * hang) *
                            std::sin(20 * uv.x + 0.7F * std::sin(2 * s));
         const float out = s > 0 ? (ledge.out - round) * std::min(1.0F, hang / ledge.below) : 0.0F;
@@ -139,12 +134,10 @@ Shape palm(int fronds, float length) {
     Shape shape;
     Random random(0, "builtin/palm");
     for (int i = 0; i < fronds; ++i) {
-        const auto vary = [&](double low, double high) {
-            return static_cast<float>(low + (high - low) * random.uniform());
-        };
         const float inner = part(i, fronds); // the last ones stand upright in the middle
-        const float reach = length * vary(0.85, 1.1), lean = glm::mix(0.75F, 0.25F, inner);
-        const float droop = vary(0.5, 0.9) * (1 - 0.5F * inner), width = 0.17F * length;
+        const float reach = length * between(random, 0.85, 1.1),
+                    lean = glm::mix(0.75F, 0.25F, inner);
+        const float droop = between(random, 0.5, 0.9) * (1 - 0.5F * inner), width = 0.17F * length;
         const auto surface = [=](glm::vec2 uv) {
             const float t = uv.y, side = 2 * uv.x - 1;
             const float out = reach * (lean * t + 0.35F * droop * t * t);
@@ -153,7 +146,7 @@ Shape palm(int fronds, float length) {
             return glm::vec3(-width * side, up + fold, out - 0.4F * fold);
         };
         shape.add(patch(surface, 4, 12, {1, 1}),
-                  at({0, 0, 0}, 360 * (part(i, 1) * 0.618F) + vary(-12, 12)));
+                  at({0, 0, 0}, 360 * (part(i, 1) * 0.618F) + between(random, -12, 12)));
     }
     return shape;
 }

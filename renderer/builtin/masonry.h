@@ -2,7 +2,9 @@
 
 #include "renderer/builtin/shapes.h"
 
-// The atrium's stonework. Everything stands on y = 0 and is centred on the y axis unless said
+#include <span>
+
+// Walls and stonework. Everything stands on y = 0 and is centred on the y axis unless said
 // otherwise; metres.
 namespace obscura::builtin {
 
@@ -22,6 +24,11 @@ struct ArchedWall {
     float foot; // where the wall begins: at the springing if columns carry it, else at the floor
 };
 Shape archedWall(const ArchedWall& wall);
+// A solid wall along x, standing on y = 0, with rectangular holes; its middle is at x = z = 0.
+struct Hole {
+    glm::vec2 low, high; // (x, y)
+};
+Shape piercedWall(glm::vec3 size, std::span<const Hole> holes);
 // The ring of cut stones round its arch, with a larger keystone; proud of it on all sides.
 Shape voussoirs(const ArchedWall& wall, int count, float width);
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/random.h"
+
 #include <glm/glm.hpp>
 
 #include <array>
@@ -7,6 +9,16 @@
 #include <string_view>
 
 namespace obscura::builtin {
+
+// 0 at `from`, 1 at `to`, which may be the smaller; smooth between.
+inline float ramp(float from, float to, float x) {
+    const float t = glm::clamp((x - from) / (to - from), 0.0F, 1.0F);
+    return t * t * (3 - 2 * t);
+}
+
+inline float between(Random& random, double low, double high) {
+    return static_cast<float>(low + (high - low) * random.uniform());
+}
 
 // Smooth noise over a lattice of random values (value noise with Perlin's quintic fade). The same
 // numbers on every machine: the lattice comes from Random, and the rest is arithmetic.

@@ -9,12 +9,6 @@ namespace obscura::builtin {
 
 namespace {
 
-// 0 at `from`, 1 at `to`, which may be the smaller.
-float ramp(float from, float to, float x) {
-    const float t = glm::clamp((x - from) / (to - from), 0.0F, 1.0F);
-    return t * t * (3 - 2 * t);
-}
-
 // One stone of a wall or floor: which one, and how far inside its edge (metres).
 struct Stone {
     float tone; // 0 ... 1, the stone's own
@@ -64,6 +58,26 @@ Painter ashlar() {
         texel.colour = glm::mix(glm::vec3(0.50F, 0.43F, 0.34F), colour, 0.25F + 0.75F * face);
         texel.height = 0.006F * face + 0.004F * cloud + 0.0012F * grain +
                        0.008F * face * glm::dot(stone.slope, stone.local);
+        return texel;
+    };
+}
+
+Painter bricks() {
+    return [noise = Noise("builtin/bricks")](glm::vec2 uv) {
+        const glm::vec2 ragged{noise.value(uv * 128.0F, 128),
+                               noise.value(uv * 128.0F + 21.0F, 128)};
+        const glm::vec2 metres = 2.0F * glm::fract(uv + 0.0008F * ragged);
+        const Stone brick = stoneAt(metres, 2, {0.222F, 0.0769F}, noise);
+        const float cloud = noise.clouds(uv * 16.0F, 16, 4);
+        const float grain = noise.clouds(uv * 256.0F, 256, 2);
+        const float face = ramp(0.003F, 0.009F, brick.inside);
+        glm::vec3 colour = glm::mix(glm::vec3(0.44F, 0.22F, 0.16F), glm::vec3(0.66F, 0.38F, 0.27F),
+                                    brick.tone + 0.4F * cloud);
+        colour *= 1 + 0.16F * grain + 0.2F * cloud;
+        Texel texel;
+        texel.colour = glm::mix(glm::vec3(0.62F, 0.57F, 0.50F) * (1 + 0.2F * grain), colour, face);
+        texel.height = 0.006F * face + 0.0015F * grain + 0.002F * cloud +
+                       0.01F * face * glm::dot(brick.slope, brick.local);
         return texel;
     };
 }

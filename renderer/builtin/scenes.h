@@ -9,5 +9,7 @@ namespace obscura::builtin {
 Scene sculpture();
 Scene atrium();
 Scene figures();
+Scene room();
+Scene garden();
 
 } // namespace obscura::builtin

@@ -1,5 +1,7 @@
 #include "renderer/builtin/shapes.h"
 
+#include "image/image.h"
+
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -80,6 +82,14 @@ void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres
     scene.meshes.push_back(mesh);
     if (scene.materials[static_cast<std::size_t>(material)].normalTexture.exists())
         deriveTangents(scene, mesh);
+}
+
+Shape tinted(Shape shape, glm::vec3 colour) {
+    const glm::vec4 linear(linearFromSrgb(colour.r), linearFromSrgb(colour.g),
+                           linearFromSrgb(colour.b), 1);
+    for (Vertex& vertex : shape.vertices)
+        vertex.colour = linear;
+    return shape;
 }
 
 glm::mat4 at(glm::vec3 position, float turnDegrees) {
@@ -184,6 +194,25 @@ void projectUv(Shape& shape) {
     }
 }
 
+void alongGrain(Shape& piece) {
+    glm::vec3 low(1e9F), high(-1e9F);
+    for (const Vertex& vertex : piece.vertices) {
+        low = glm::min(low, vertex.position);
+        high = glm::max(high, vertex.position);
+    }
+    const glm::vec3 size = high - low;
+    const auto longest = [](glm::vec3 v) {
+        return v.x >= v.y && v.x >= v.z ? 0 : (v.y >= v.z ? 1 : 2);
+    };
+    const int fibres = longest(size);
+    const float other = 7.3F * (size.x + 3 * size.y + 9 * size.z); // another part of the tree
+    for (Vertex& vertex : piece.vertices) {
+        const int facing = longest(glm::abs(vertex.normal));
+        const int u = facing == fibres ? (fibres + 1) % 3 : fibres;
+        vertex.uv = {vertex.position[u] + other, vertex.position[3 - facing - u] + 1.7F * other};
+    }
+}
+
 namespace {
 
 // The box's 24 vertices: each face's own corners, drawn in by the chamfer. Bit i of `corner` says
@@ -236,6 +265,46 @@ Shape box(glm::vec3 size, float bevel) {
     }
     for (unsigned corner = 0; corner < 8; ++corner)
         addTriangle(shape, {boxVertex(0, corner), boxVertex(1, corner), boxVertex(2, corner)});
+    return shape;
+}
+
+namespace {
+
+// The lines of a grid on one face of the box round a rounded one: close together where it bends.
+std::vector<float> gridLines(float half, float radius, int cells, int arc) {
+    std::vector<float> lines;
+    for (int i = arc; i > 0; --i)
+        lines.push_back(radius - half - radius * std::tan(glm::quarter_pi<float>() * part(i, arc)));
+    for (int i = 0; i <= cells; ++i)
+        lines.push_back((half - radius) * (2 * part(i, cells) - 1));
+    for (int i = arc; i > 0; --i)
+        lines.push_back(-lines[static_cast<std::size_t>(i - 1)]);
+    return lines;
+}
+
+} // namespace
+
+Shape rounded(glm::vec3 size, float radius, int cells, int arc) {
+    const glm::vec3 half = size / 2.0F;
+    Shape shape;
+    for (int face = 0; face < 6; ++face) {
+        const int axis = face / 2;
+        const float sign = face % 2 == 0 ? 1.0F : -1.0F;
+        const int across = (axis + (sign > 0 ? 1 : 2)) % 3, up = (axis + (sign > 0 ? 2 : 1)) % 3;
+        const std::vector<float> x = gridLines(half[across], radius, cells, arc);
+        const std::vector<float> y = gridLines(half[up], radius, cells, arc);
+        for (const float b : y)
+            for (const float a : x) {
+                glm::vec3 p;
+                p[axis] = sign * half[axis];
+                p[across] = a;
+                p[up] = b;
+                const glm::vec3 inner = glm::clamp(p, radius - half, half - radius);
+                const glm::vec3 normal = glm::normalize(p - inner);
+                shape.vertices.push_back({inner + radius * normal, normal, {}, {a, b}});
+            }
+        shape.addCells(static_cast<int>(x.size()) - 1, static_cast<int>(y.size()) - 1);
+    }
     return shape;
 }
 

@@ -30,6 +30,9 @@ struct Shape {
 
 void addMesh(Scene& scene, const Shape& shape, int material, float textureMetres = 1);
 
+// All of it in one colour (sRGB code values, 0 ... 1), with which the material's is multiplied.
+Shape tinted(Shape shape, glm::vec3 colour);
+
 glm::mat4 at(glm::vec3 position, float turnDegrees = 0); // turned about y, then moved
 
 // i / n in floating point: the place of one of n steps.
@@ -70,8 +73,15 @@ Shape pillar(const Outline& outline, glm::vec2 size);
 // Swept along a curve; x points away from `centre`.
 Shape arch(const Outline& outline, std::span<const glm::vec3> path, glm::vec3 centre);
 
+// A round bar along points (xyz) of the given radii (w), closed at both ends.
+Shape tube(std::span<const glm::vec4> path, int sides);
+Shape rod(glm::vec4 from, glm::vec4 to, int sides = 8); // a straight one
+
 // Centred, with chamfered edges that are shaded as if round.
 Shape box(glm::vec3 size, float bevel);
+// Centred, with round edges and corners, each edge bent in 2 x `arc` steps; `cells` across each
+// flat part, for what is deformed later.
+Shape rounded(glm::vec3 size, float radius, int cells = 1, int arc = 3);
 
 // Moves each vertex, and turns its normal as the mapping turns the surface there.
 using Mapping = std::function<glm::vec3(glm::vec3)>;
@@ -85,5 +95,7 @@ void splitFolds(Shape& shape);
 
 // Texture coordinates by projection along the axis that the normal is nearest to, as stone is cut.
 void projectUv(Shape& shape);
+// The same of one piece of wood, whose fibres run along its longest side.
+void alongGrain(Shape& piece);
 
 } // namespace obscura::builtin

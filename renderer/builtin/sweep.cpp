@@ -136,4 +136,50 @@ Shape arch(const Outline& outline, std::span<const glm::vec3> path, glm::vec3 ce
     return sweep(outline, stations);
 }
 
+namespace {
+
+// A flat end, facing along `direction`.
+void addEnd(Shape& shape, const Station& station, glm::vec3 direction, int sides) {
+    const auto first = static_cast<std::uint32_t>(shape.vertices.size());
+    for (int i = 0; i < sides; ++i) {
+        const float angle = glm::two_pi<float>() * part(i, sides);
+        const glm::vec3 out = std::cos(angle) * station.across + std::sin(angle) * station.up;
+        const glm::vec2 flat =
+            glm::length(station.across) * glm::vec2(std::cos(angle), std::sin(angle));
+        shape.vertices.push_back({station.origin + out, direction, {}, flat});
+    }
+    const bool ahead = glm::dot(glm::cross(station.across, station.up), direction) > 0;
+    for (std::uint32_t i = 2; i < static_cast<std::uint32_t>(sides); ++i)
+        shape.addTriangle(first, first + i - (ahead ? 1U : 0U), first + i - (ahead ? 0U : 1U));
+}
+
+} // namespace
+
+Shape tube(std::span<const glm::vec4> path, int sides) {
+    const std::size_t last = path.size() - 1;
+    const auto point = [&](std::size_t i) { return glm::vec3(path[i]); };
+    std::vector<Station> stations;
+    glm::vec3 across(0), direction(0), first(0);
+    float along = 0;
+    for (std::size_t i = 0; i <= last; ++i) {
+        direction = glm::normalize(point(std::min(i + 1, last)) - point(i > 0 ? i - 1 : 0));
+        if (i == 0) { // any direction across the first, then as little turn as there can be
+            first = direction;
+            across = std::abs(direction.y) < 0.9F ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+        } else
+            along += glm::distance(point(i - 1), point(i));
+        across = glm::normalize(across - glm::dot(across, direction) * direction);
+        const glm::vec3 up = glm::cross(across, direction);
+        stations.push_back({point(i), path[i].w * across, path[i].w * up, across, along});
+    }
+    Shape shape = sweep(circle(1, sides), stations);
+    for (Vertex& vertex : shape.vertices)
+        vertex.uv.y *= path[0].w;
+    addEnd(shape, stations.front(), -first, sides);
+    addEnd(shape, stations.back(), direction, sides);
+    return shape;
+}
+
+Shape rod(glm::vec4 from, glm::vec4 to, int sides) { return tube(std::array{from, to}, sides); }
+
 } // namespace obscura::builtin

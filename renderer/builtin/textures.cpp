@@ -82,4 +82,13 @@ int addMaterial(Scene& scene, Material material, const Canvas& canvas, const Pai
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
+int addCutOut(Scene& scene, const char* name, int size, const Painter& painter) {
+    const Material leaf{.name = name, .alphaCutoff = 0.5F, .doubleSided = true};
+    const int material = addMaterial(scene, leaf, {size, 1, false}, painter);
+    const Material& added = scene.materials[static_cast<std::size_t>(material)];
+    scene.textures[static_cast<std::size_t>(added.baseColourTexture.texture)].minified =
+        Minified::linear;
+    return material;
+}
+
 } // namespace obscura::builtin

@@ -267,13 +267,14 @@ void GpuScene::drawOpaque(const gl::Program& program, const glm::mat4& clipFromW
 namespace {
 
 gl::ShaderText materialShader(const std::string& name, const MaterialFeatures& features,
-                              GpuScene::Reads reads) {
+                              GpuScene::Reads reads, bool peels = false) {
     gl::ShaderText text;
     text.add(fmt::format("#define MASKED {:d}\n#define TRANSFORMED {:d}\n#define COLOURED {:d}\n"
-                         "#define GLOSSINESS {:d}\n#define EMISSION {:d}\n#define MAPS {}\n",
+                         "#define GLOSSINESS {:d}\n#define EMISSION {:d}\n#define MAPS {}\n"
+                         "#define PEELED {:d}\n",
                          features.masked, features.transformed, features.coloured,
-                         features.glossiness, reads == GpuScene::Reads::withEmission,
-                         mapsOf(reads)),
+                         features.glossiness, reads == GpuScene::Reads::withEmission, mapsOf(reads),
+                         peels),
              "(variant)");
     addFrameBlock(text);
     text.addFile(shaderFolder(), name);
@@ -282,9 +283,9 @@ gl::ShaderText materialShader(const std::string& name, const MaterialFeatures& f
 
 gl::Program materialProgram(const std::string& label, const std::string& vertex,
                             const std::string& fragment, const MaterialFeatures& features,
-                            GpuScene::Reads reads) {
-    return gl::Program(label, materialShader(vertex, features, reads),
-                       materialShader(fragment, features, reads));
+                            GpuScene::Reads reads, bool peels = false) {
+    return gl::Program(label, materialShader(vertex, features, reads, peels),
+                       materialShader(fragment, features, reads, peels));
 }
 
 } // namespace
@@ -297,9 +298,10 @@ std::string gbufferShaders() {
     return texts;
 }
 
-DepthPass::DepthPass()
-    : opaque_(materialProgram("depth of opaque", "depth_only.vert", "depth_only.frag", {},
-                              GpuScene::Reads::forDepth)) {}
+DepthPass::DepthPass(bool peels)
+    : peels_(peels),
+      opaque_(materialProgram("depth of opaque", "depth_only.vert", "depth_only.frag", {},
+                              GpuScene::Reads::forDepth, peels)) {}
 
 const gl::Program& DepthPass::masked(const MaterialFeatures& features) const {
     const MaterialFeatures alpha{true, features.transformed, features.coloured, false};
@@ -307,15 +309,17 @@ const gl::Program& DepthPass::masked(const MaterialFeatures& features) const {
     return known != masked_.end()
                ? known->second
                : masked_
-                     .emplace(alpha,
-                              materialProgram("depth of masked", "depth_only.vert",
-                                              "depth_only.frag", alpha, GpuScene::Reads::forDepth))
+                     .emplace(alpha, materialProgram("depth of masked", "depth_only.vert",
+                                                     "depth_only.frag", alpha,
+                                                     GpuScene::Reads::forDepth, peels_))
                      .first->second;
 }
 
 void DepthPass::draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool cullBackFaces,
-                     const gl::State& state) const {
+                     const gl::State& state, float separation) const {
     const auto see = [&](const gl::Program& program) -> const gl::Program& {
+        if (peels_)
+            program.set("separation", separation);
         program.setMatrix("clipFromWorld",
                           std::span<const float, 16>(glm::value_ptr(clipFromWorld), 16));
         return program;
@@ -412,6 +416,20 @@ void GBufferPass::draw(const GpuScene& scene, const Frame& frame, const GBuffer&
                    emission ? GpuScene::Reads::withEmission : GpuScene::Reads::withoutEmission,
                    true, state);
     }
+}
+
+void GBufferPass::peel(const GpuScene& scene, const Frame& frame, const gl::Texture& before,
+                       float separation, const gl::Target& layer) const {
+    if (!peel_)
+        peel_.emplace(true);
+    layer.bind();
+    gl::State state;
+    state.depth = gl::State::Depth::reversed;
+    state.apply();
+    layer.clear(0, {frame.depth.y, 0, 0, 0});
+    layer.clearDepth(0);
+    gl::bindTexture(DepthPass::beforeUnit, before);
+    peel_->draw(scene, frame.clipFromView * frame.viewFromWorld, true, state, separation);
 }
 
 std::filesystem::path shaderFolder() {

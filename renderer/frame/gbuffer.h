@@ -132,16 +132,21 @@ void bindFrame(const gl::UniformBuffer& frame);
 gl::UniformBuffer frameBuffer(const Frame& frame);
 
 // Draws depth alone, with holes where masked materials have them. It goes before the G-buffer's
-// pass, which then shades each pixel once, and it draws the sun's shadow map.
+// pass, which then shades each pixel once, and it draws the sun's shadow map. One that `peels`
+// draws only what lies `separation` metres of view depth behind the texture at unit `beforeUnit`,
+// or farther, and linear view depth into the target's first colour.
 class DepthPass {
   public:
-    DepthPass();
+    static constexpr int beforeUnit = 4;
+
+    explicit DepthPass(bool peels = false);
     void draw(const GpuScene& scene, const glm::mat4& clipFromWorld, bool cullBackFaces,
-              const gl::State& state) const;
+              const gl::State& state, float separation = 0) const;
 
   private:
     const gl::Program& masked(const MaterialFeatures& features) const;
 
+    bool peels_;
     gl::Program opaque_;
     mutable std::map<MaterialFeatures, gl::Program> masked_; // by features that decide alpha
 };
@@ -152,10 +157,19 @@ class GBufferPass {
     // The frame must be bound.
     void draw(const GpuScene& scene, const Frame& frame, const GBuffer& gbuffer) const;
 
+    // Depth peeling (Everitt 2001), one layer further: of what draw() would draw, the nearest that
+    // lies at least `separation` metres of view depth behind `before`, which is linear view depth
+    // of the layer before (GBuffer::depth() is the first). `layer` has the size of the frame, one
+    // colour r32f, which becomes linear view depth, and a depth buffer. Empty pixels hold
+    // frame.depth.y.
+    void peel(const GpuScene& scene, const Frame& frame, const gl::Texture& before,
+              float separation, const gl::Target& layer) const;
+
   private:
     const gl::Program& program(const MaterialFeatures& features, bool emission) const;
 
     DepthPass depth_;
+    mutable std::optional<DepthPass> peel_; // compiled when it is first asked for
     mutable std::map<std::pair<MaterialFeatures, bool>, gl::Program> programs_;
 };
 

@@ -2,9 +2,22 @@
 
 #include "renderer/reference/ray_scene.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace obscura {
+
+namespace {
+
+// As smoothNormal() of shaders/gbuffer.frag. All are unit vectors; `view` is towards the eye.
+glm::vec3 bentToSeenSide(glm::vec3 normal, const glm::vec3& face, const glm::vec3& view) {
+    if (glm::dot(normal, view) >= 0)
+        return normal;
+    normal -= 2 * std::min(glm::dot(normal, face), 0.0f) * face;
+    return glm::normalize(normal - std::min(glm::dot(normal, view), 0.0f) * view);
+}
+
+} // namespace
 
 Sight::Sight(const Scene& scene)
     : scene_(scene), bounds_(scene.bounds()),
@@ -46,7 +59,7 @@ std::optional<Sight::Seen> Sight::along(const glm::vec3& from, const glm::vec3& 
                                             corner(2).normal * v);
     seen.front = !(glm::dot(face, direction) > 0);
     seen.faceNormal = seen.front ? face : -face;
-    seen.normal = seen.front ? smooth : -smooth;
+    seen.normal = bentToSeenSide(seen.front ? smooth : -smooth, seen.faceNormal, -direction);
     return seen;
 }
 

@@ -20,7 +20,7 @@ Disc discOf(vec3 centre, float radius, ivec2 pixel) {
     // the shift from their azimuths. Azimuths cannot make the turn: they are golden angles, as
     // those between taps are, so that turned discs would fall onto each other.
     vec3 random = tileDirection(pixel);
-    float angle = 3.14159265 * random.z + 6.28318531 * unitFloat(hash(uint(frame.seed.x) + 1u));
+    float angle = 3.14159265 * random.z + 6.28318531 * unitFloat(hash(tileSeed() + 1u));
     vec2 turn = radius * vec2(cos(angle), sin(angle));
     return Disc(centre, first * turn.x + second * turn.y, second * turn.x - first * turn.y,
                 atan(random.y, random.x) / 6.28318531 + 0.5);

@@ -19,7 +19,7 @@ struct Frame {
     vec4 size;         // .xy pixels, .zw their inverse
     vec4 depth;        // .x nearest, .y value of empty pixels, .z focus distance (metres),
                        // .w uv in height that one metre covers at depth 1
-    ivec4 seed;        // .x
+    ivec4 seed;        // .x of the noise; .y accumulated frames so far, by which it differs too
 };
 
 #ifdef __cplusplus

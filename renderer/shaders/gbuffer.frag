@@ -41,6 +41,20 @@ vec3 faceNormal() {
     return dot(n, viewPlace) > 0.0 ? -n : n;
 }
 
+// The interpolated normal on the side that is seen. Where it faces away from the viewer, as at the
+// silhouettes of coarse meshes and where a file's normals contradict its triangles' winding, much
+// of its hemisphere lies behind the surface, and a tracer would call that blocked. Such a normal is
+// mirrored to the triangle's visible side, and from there bent until it is seen edge on.
+// (renderer/reference/sight.cpp does the same.)
+vec3 smoothNormal() {
+    vec3 n = gl_FrontFacing ? normalize(viewNormal) : -normalize(viewNormal);
+    vec3 view = -normalize(viewPlace), face = faceNormal();
+    if (dot(n, view) >= 0.0)
+        return n;
+    n -= 2.0 * min(dot(n, face), 0.0) * face;
+    return normalize(n - min(dot(n, view), 0.0) * view);
+}
+
 void main() {
     vec4 colour = baseColourHere();
 #if GLOSSINESS
@@ -54,8 +68,7 @@ void main() {
     float roughness = surface.z * metallicRoughness.g;
 #endif
     normalOut = vec4(shadingNormal(), clamp(roughness, 0.045, 1.0));
-    vec3 smoothNormal = gl_FrontFacing ? normalize(viewNormal) : -normalize(viewNormal);
-    occlusionNormalOut = vec4(faceNormals != 0 ? faceNormal() : smoothNormal, 0.0);
+    occlusionNormalOut = vec4(faceNormals != 0 ? faceNormal() : smoothNormal(), 0.0);
     depthOut = -viewPlace.z;
 #if EMISSION
     emissionOut = vec4(emission.rgb * colourFrom(emissionMap, coordinates(3)).rgb, 1.0);

@@ -16,10 +16,10 @@ uint hilbertIndex(ivec2 pixel) {
     return index;
 }
 
-// The seed moves along the sequence by 288, XeGTAO's step from frame to frame. Multiplying whole
+// Seed and accumulated frames move along the sequence by 288, XeGTAO's step. Multiplying whole
 // numbers takes the fraction without rounding, however large the seed.
 uvec2 hilbertBits(ivec2 pixel) {
-    uint index = hilbertIndex(pixel) + 288u * uint(frame.seed.x);
+    uint index = hilbertIndex(pixel) + 288u * uint(frame.seed.x + frame.seed.y);
     return index * uvec2(3242174889u, 2447445414u); // 2^32 / 1.3247, 2^32 / 1.3247^2
 }
 

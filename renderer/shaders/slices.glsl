@@ -60,7 +60,7 @@ Point pointOf(ivec2 pixel, float depth) {
     p.position = viewPosition(uvOf(pixel), depth);
     float nearness = inversesqrt(dot(p.position, p.position));
     p.view = -p.position * nearness;
-    // Interpolated normals may face away from the camera; slices need one that does not.
+    // Normals of a normal map may face away from the camera; slices need one that does not.
     vec3 normal = texelFetch(normalBuffer, pixel, 0).xyz;
     normal = normalize(normal + p.view * max(0.0, 2e-3 - dot(normal, p.view)));
     p.cosine = clamp(dot(normal, p.view), 1e-3, 1.0);
@@ -168,7 +168,20 @@ struct Tap {
     float distance; // metres, squared
     float along;    // metres along the view, in space
     bool seen;      // false: there is nothing
+    vec2 uv;        // where it was read
 };
+
+// What lies at this depth over a place on the screen; nothing where the march does not get there.
+Tap tapOver(Point p, Slice slice, float direction, float reach, vec2 uv, float depth) {
+    vec3 offset = viewPosition(uv, depth) - p.position;
+    Tap tap;
+    tap.distance = dot(offset, offset);
+    tap.along = dot(offset, p.view);
+    tap.offset = vec2(dot(offset, slice.upwards), direction * dot(offset, slice.sideways));
+    tap.seen = reach >= 1.0 && !isEmpty(depth) && tap.offset.y > 0.0;
+    tap.uv = uv;
+    return tap;
+}
 
 // `direction`: 1 on the side that `side` points to, else -1. `place` in [0, 1) is how far along it,
 // samplePower applied.
@@ -178,13 +191,7 @@ Tap tapAt(Point p, Slice slice, float direction, float reach, float place) {
     ivec2 pixel = clamp(ivec2(floor(exact)), ivec2(0), ivec2(frame.size.xy) - 1);
     vec2 uv;
     float depth = depthOfTap(pixel, levelOf(pixels * p.levelScale, p.coarsest), uv);
-    vec3 offset = viewPosition(uv, depth) - p.position;
-    Tap tap;
-    tap.distance = dot(offset, offset);
-    tap.along = dot(offset, p.view);
-    tap.offset = vec2(dot(offset, slice.upwards), direction * dot(offset, slice.sideways));
-    tap.seen = reach >= 1.0 && !isEmpty(depth) && tap.offset.y > 0.0;
-    return tap;
+    return tapOver(p, slice, direction, reach, uv, depth);
 }
 
 // Where the tap `step` of a slice goes: an even stratum each, jittered anew by the golden ratio.

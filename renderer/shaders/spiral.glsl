@@ -6,11 +6,12 @@
 
 // phi = (30 x XOR y) + 10 x y radians, as a fraction of a turn. In fixed point (2^32 is a turn),
 // because the products reach far beyond what a float's 24 bits tell apart. The seed turns all
-// pixels alike.
+// pixels alike, and frames that are accumulated by the golden angle from one to the next.
 float pixelTurn(ivec2 pixel) {
     uvec2 p = uvec2(pixel);
     uint radians = ((30u * p.x) ^ p.y) + 10u * p.x * p.y;
-    return unitFloat(radians * 683565276u + hash(uint(frame.seed.x)));
+    uint turn = hash(uint(frame.seed.x)) + 2654435769u * uint(frame.seed.y);
+    return unitFloat(radians * 683565276u + turn);
 }
 
 // Tap i of the unit disc. `turns` is how often the spiral goes round, `start` its first direction

@@ -18,7 +18,9 @@ std::string readsOf(const Technique& technique) {
     add(normals, "normals");
     add(light, "light and albedo");
     add(spheres, "spheres fitted to the scene's meshes");
-    add(rays | traced | triangles, "the scene's triangles");
+    add(rays | traced | tree | triangles, "the scene's triangles");
+    add(voxels, "voxels of the scene");
+    add(layers, "further layers of depth");
     return text;
 }
 
@@ -40,6 +42,8 @@ std::string passOf(const Pass& pass) {
         add("compute");
     if (pass.stage == Stage::splat)
         add("once for each sphere");
+    if (pass.stage == Stage::boxes)
+        add("once for each triangle");
     return details.empty() ? fmt::format("`{}`", pass.name)
                            : fmt::format("`{}` ({})", pass.name, details);
 }

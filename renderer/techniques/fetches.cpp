@@ -36,12 +36,16 @@ void count(FetchCount& result, const gl::Program& program, const gl::SlicedTarge
 
 double fetchesPerPixel(const Settings& settings) {
     double sum = downscaleOf(settings) > 1 ? Reduction::upsamplePass.fetches(settings) : 0;
+    if (accumulatedFrames(settings) > 1)
+        sum += Accumulation::pass.fetches(settings);
     const auto add = [&](const Pass& pass, int level) {
         const FetchCount declaration = declarationOf(settings, pass, level);
         sum += declaration.share * declaration.declared;
     };
     if (downscaleOf(settings) > 1)
         add(Reduction::reducePass, 0);
+    if (furtherLayers(settings) > 0)
+        add(FurtherLayers::pass, 0);
     for (const Pass* pass : enabledPasses(settings))
         for (int level = 0; level < pass->levels; ++level)
             add(*pass, level);
@@ -54,7 +58,7 @@ std::vector<FetchCount> countFetches(const Settings& settings, const OcclusionIn
     const OcclusionPasses passes(settings, width, height);
     std::vector<FetchCount> counts;
     // When a pass has been issued, what it read and what it gave are still bound.
-    passes.visibility(inputs, [&](const Pass& pass) {
+    passes.next(inputs, [&](const Pass& pass) {
         if (std::find(own.begin(), own.end(), &pass) == own.end())
             return;
         const gl::SlicedTarget& result = passes.result(pass.name);

@@ -14,11 +14,14 @@ namespace {
 
 // Binding points of a pass's shader. Blocks; the frame is 0.
 constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4,
-              trianglesBinding = 5; // three of them
+              voxelsBinding = 6;
+// Storage blocks have bindings of their own.
+constexpr int treeBinding = 5; // three of them
+constexpr int occludersBinding = 3;
 // Samplers; later results follow.
 constexpr int depthUnit = 0, normalUnit = 1, albedoUnit = 2, ambientUnit = 3, directUnit = 4,
-              resultUnit = 5, tracedUnit = 16; // results end below it
-constexpr int group = 128;                     // compute shaders' pixels that share memory
+              resultUnit = 5, voxelsUnit = 20, tracedUnit = 21; // results end below these
+constexpr int group = 128; // compute shaders' pixels that share memory
 
 bool enabled(const Settings& settings, const Pass& pass) {
     return pass.enabledBy.empty() || settings[pass.enabledBy] >= static_cast<float>(pass.from);
@@ -26,6 +29,10 @@ bool enabled(const Settings& settings, const Pass& pass) {
 
 bool widened(const Settings& settings, const Pass& pass) {
     return !pass.widenedBy.empty() && settings[pass.widenedBy] > 0;
+}
+
+int layerUnit(const Technique& technique, int further) {
+    return resultUnit + static_cast<int>(technique.passes.size()) + further;
 }
 
 bool computes(const Pass& pass) {
@@ -98,11 +105,21 @@ void declareBlocks(gl::ShaderText& text, const Settings& settings) {
                              "spheres[]; }}; // world position, radius\n",
                              spheresBinding);
     if (settings.technique().reads & triangles)
+        block +=
+            fmt::format("struct Occluder {{ vec4 a, b, c; }}; // corners; w: coverage, whether "
+                        "double-sided\nlayout(std430, binding = {}) readonly buffer "
+                        "OccluderBlock {{ Occluder occluders[]; }};\n",
+                        occludersBinding);
+    if (settings.technique().reads & voxels)
+        block += fmt::format("layout(std140, binding = {}) uniform VoxelBlock {{ vec4 voxelPlace, "
+                             "voxelScale; }};\n",
+                             voxelsBinding);
+    if (settings.technique().reads & tree)
         block += fmt::format(
             "layout(std430, binding = {}) readonly buffer NodeBlock {{ uvec4 nodes[]; }};\n"
             "layout(std430, binding = {}) readonly buffer TriangleBlock {{ vec4 triangles[]; }};\n"
             "layout(std430, binding = {}) readonly buffer MaskBlock {{ uint masks[]; }};\n",
-            trianglesBinding, trianglesBinding + 1, trianglesBinding + 2);
+            treeBinding, treeBinding + 1, treeBinding + 2);
     text.addFile(shaderFolder(), "frame.h");
     text.add(block, "(generated declarations)");
 }
@@ -125,6 +142,12 @@ std::string declareInputs(const Settings& settings) {
         text += fmt::format("layout(binding = {}) uniform sampler2D ambientLight;\n", ambientUnit);
         text += fmt::format("layout(binding = {}) uniform sampler2D directLight;\n", directUnit);
     }
+    if (technique.reads & layers)
+        for (int further = 0; further < 2; ++further)
+            text += fmt::format("layout(binding = {}) uniform sampler2D {}Depth;\n",
+                                layerUnit(technique, further), further == 0 ? "second" : "third");
+    if (technique.reads & voxels)
+        text += fmt::format("layout(binding = {}) uniform sampler3D voxelOpacity;\n", voxelsUnit);
     if (technique.reads & traced)
         text += fmt::format("layout(binding = {}) uniform sampler2D tracedBuffer;\n", tracedUnit);
     if (technique.points)
@@ -161,6 +184,7 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
                                    widened(settings, pass) ? "Wide" : "", level > 0 ? "Level" : "",
                                    pass.layers > 1              ? ", layer"
                                    : pass.stage == Stage::splat ? ", sphere"
+                                   : pass.stage == Stage::boxes ? ", Occluder(a, b, c)"
                                                                 : "");
     if (writes == Writes::fetches) {
         call += computes(pass) ? fmt::format(groupShare, pass.stage == Stage::rows ? "x" : "y")
@@ -185,7 +209,10 @@ std::string mainOf(const Settings& settings, const Pass& pass, int level, Writes
     return fmt::format("{}{}layout(location = 0) out vec4 result;\nvoid main() {{\n    ivec2 pixel "
                        "= ivec2(gl_FragCoord.xy);\n    {}    result = value;\n}}\n",
                        pass.layers > 1 ? "uniform int layer;\n" : "",
-                       pass.stage == Stage::splat ? "flat in vec4 sphere;\n" : "", call);
+                       pass.stage == Stage::splat   ? "flat in vec4 sphere;\n"
+                       : pass.stage == Stage::boxes ? "flat in vec4 a, b, c;\n"
+                                                    : "",
+                       call);
 }
 
 } // namespace
@@ -217,10 +244,14 @@ gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level,
     return text;
 }
 
-gl::ShaderText splatShader(const Settings& settings) {
+bool drawsObjects(const Pass& pass) {
+    return pass.stage == Stage::splat || pass.stage == Stage::boxes;
+}
+
+gl::ShaderText objectShader(const Settings& settings, const Pass& pass) {
     gl::ShaderText text;
     declareBlocks(text, settings);
-    text.addFile(shaderFolder(), "splat.vert");
+    text.addFile(shaderFolder(), pass.stage == Stage::splat ? "splat.vert" : "box.vert");
     return text;
 }
 
@@ -232,14 +263,23 @@ gl::Program passProgram(const Settings& settings, const Pass& pass, int level, W
     if (computes(pass))
         return gl::Program(label, text);
     return gl::Program(
-        label, pass.stage == Stage::splat ? splatShader(settings) : shaderText("screen.vert"),
-        text);
+        label, drawsObjects(pass) ? objectShader(settings, pass) : shaderText("screen.vert"), text);
 }
+
+namespace {
+
+// Visibility alone, or light beside it.
+int resultChannels(const Settings& settings) {
+    return gl::channelsOf(formatOf(settings, *enabledPasses(settings).back())) == 4 ? 4 : 1;
+}
+
+} // namespace
 
 double occlusionBytes(const Settings& settings, int width, int height) {
     const int factor = downscaleOf(settings);
     const auto smaller = [](int size, int scale) { return (size + scale - 1) / scale; };
-    double bytes = 0;
+    double bytes = 1.0 * smaller(width, factor) * smaller(height, factor) *
+                   FurtherLayers::bytesPerPixel(furtherLayers(settings));
     for (const Pass* pass : enabledPasses(settings)) {
         const int across = smaller(smaller(width, factor), pass->scale),
                   down = smaller(smaller(height, factor), pass->scale);
@@ -257,6 +297,8 @@ double occlusionBytes(const Settings& settings, int width, int height) {
                 (bytesOf(gl::Format::r32f) + normal) +
             1.0 * width * height * bytesOf(formatOf(settings, *enabledPasses(settings).back()));
     }
+    if (accumulatedFrames(settings) > 1)
+        bytes += 1.0 * width * height * Accumulation::bytes(resultChannels(settings));
     return bytes;
 }
 
@@ -266,6 +308,10 @@ std::optional<Normals> normalsFor(const Technique& technique, Normals kind) {
 
 int downscaleOf(const Settings& settings) {
     return settings.has("downscale") ? static_cast<int>(settings["downscale"]) : 1;
+}
+
+int accumulatedFrames(const Settings& settings) {
+    return settings.has("accumulate") ? static_cast<int>(settings["accumulate"]) : 1;
 }
 
 int guardPixels(const Settings& settings, int height) {
@@ -287,9 +333,11 @@ gl::SlicedTarget targetOf(const Settings& settings, const Pass& pass, int width,
 } // namespace
 
 OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height)
-    : settings_(settings), block_(settingsBlock(settings)),
+    : layers_(furtherLayers(settings), 1, 1), settings_(settings), block_(settingsBlock(settings)),
       open_(gl::constantTexture({1, 1, 1, 1})) {
     const Technique& technique = settings.technique();
+    if (const int frames = accumulatedFrames(settings); frames > 1)
+        accumulation_.emplace(frames, resultChannels(settings), width, height);
     if (const int factor = downscaleOf(settings); factor > 1) {
         if (gl::channelsOf(formatOf(settings, *enabledPasses(settings).back())) == 4)
             throw Error(fmt::format("expected downscale = 1 where {} sends light (four channels "
@@ -300,6 +348,7 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     int unit = resultUnit;
     for (const Pass& pass : technique.passes) {
         const int own = unit++;
@@ -315,11 +364,14 @@ OcclusionPasses::OcclusionPasses(const Settings& settings, int width, int height
 }
 
 void OcclusionPasses::resize(int width, int height) {
+    if (accumulation_)
+        accumulation_->resize(width, height);
     if (reduction_) {
         reduction_->resize(width, height);
         width = reduction_->width();
         height = reduction_->height();
     }
+    layers_.resize(width, height);
     for (Step& step : steps_)
         step.target = targetOf(settings_, *step.pass, width, height);
 }
@@ -331,6 +383,15 @@ void OcclusionPasses::set(const Settings& settings) {
     settings_ = settings;
     block_ = settingsBlock(settings);
     points_ = pointsOf(settings);
+    forget();
+}
+
+// In the frame that the passes work in.
+void OcclusionPasses::drawLayers(const OcclusionInputs& inputs) const {
+    layers_.draw(inputs.peel,
+                 reduction_ ? reducedFrame(inputs.frame, downscaleOf(settings_)) : inputs.frame,
+                 reduction_ ? reduction_->depth() : inputs.gbuffer.depth(),
+                 layerSeparation * settings_["radius"]);
 }
 
 // What has yet to be drawn, light, is drawn first, for that binds other things at the same places.
@@ -361,8 +422,15 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     }
     if (reads & spheres)
         inputs.spheres().bind(spheresBinding);
+    for (int further = 0; further < layers_.count(); ++further)
+        gl::bindTexture(layerUnit(settings_.technique(), further), layers_.depth(further));
     if (reads & triangles)
-        inputs.triangles().bind(trianglesBinding);
+        inputs.occluders->triangles().bind(occludersBinding);
+    if (reads & voxels)
+        inputs.occluders->voxels(settings_["radius"] / settings_["voxels"])
+            .bind(voxelsUnit, voxelsBinding);
+    if (reads & tree)
+        inputs.tree().bind(treeBinding);
 }
 
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,
@@ -376,7 +444,8 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
         return;
     }
     gl::State state;
-    state.add = pass.stage == Stage::splat;
+    state.add = drawsObjects(pass);
+    state.cullBack = pass.stage == Stage::boxes;
     state.apply();
     for (int layer = 0; layer < target.slices().layers; ++layer) {
         target.bind(0, layer);
@@ -384,7 +453,10 @@ void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarg
             program.set("layer", layer);
         if (state.add) {
             target.clear();
-            triangle.drawQuads(inputs.spheres().count());
+            if (pass.stage == Stage::splat)
+                triangle.drawQuads(inputs.spheres().count());
+            else
+                triangle.drawBoxes(inputs.occluders->triangles().count());
         } else {
             triangle.draw();
         }
@@ -405,15 +477,19 @@ void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const
     target.readAll();
 }
 
-const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
-                                               const PassObserver& issued) const {
+const gl::Texture& OcclusionPasses::oneFrame(const OcclusionInputs& inputs, const Frame& frame,
+                                             const PassObserver& issued) const {
     const auto tell = [&](const Pass& pass) {
         if (issued)
             issued(pass);
     };
     if (reduction_) {
-        reduction_->reduce(inputs.gbuffer, inputs.frame);
+        reduction_->reduce(inputs.gbuffer, frame);
         tell(Reduction::reducePass);
+    }
+    if (layers_.count() > 0) {
+        drawLayers(inputs);
+        tell(FurtherLayers::pass);
     }
     bindInputs(inputs);
     for (const Step& step : steps_) {
@@ -427,6 +503,33 @@ const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs,
     const gl::Texture& full = reduction_->upsample(result, inputs.gbuffer);
     tell(Reduction::upsamplePass);
     return full;
+}
+
+const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs) const {
+    forget();
+    for (int frame = 1; frame < accumulatedFrames(settings_); ++frame)
+        next(inputs);
+    return next(inputs);
+}
+
+const gl::Texture& OcclusionPasses::next(const OcclusionInputs& inputs,
+                                         const PassObserver& issued) const {
+    if (!accumulation_)
+        return oneFrame(inputs, inputs.frame, issued);
+    Frame frame = inputs.frame;
+    frame.seed.y = accumulation_->frame();
+    cycledFrame_.emplace(frameBuffer(frame));
+    bindFrame(*cycledFrame_);
+    const gl::Texture& result =
+        accumulation_->add(oneFrame(inputs, frame, issued), inputs.gbuffer, frame);
+    if (issued)
+        issued(Accumulation::pass);
+    return result;
+}
+
+void OcclusionPasses::forget() const {
+    if (accumulation_)
+        accumulation_->forget();
 }
 
 bool OcclusionPasses::sendsLight() const {

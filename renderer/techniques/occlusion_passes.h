@@ -2,8 +2,11 @@
 
 #include "renderer/frame/light.h"
 #include "renderer/frame/triangle_buffers.h"
+#include "renderer/techniques/accumulation.h"
+#include "renderer/techniques/further_layers.h"
 #include "renderer/techniques/proxy_spheres.h"
 #include "renderer/techniques/reduction.h"
+#include "renderer/techniques/scene_occluders.h"
 #include "renderer/techniques/settings.h"
 
 #include <functional>
@@ -17,14 +20,16 @@ enum class Writes { value, fetches };
 
 // The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
 // technique's file, and a main that calls the pass's function. With `level` 1 it is the text for
-// every level after the first. The vertex shader of a splat pass comes from splatShader().
+// every level after the first. The vertex shader of a pass over objects comes from objectShader().
 gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0,
                           Writes writes = Writes::value);
-gl::ShaderText splatShader(const Settings& settings);
+gl::ShaderText objectShader(const Settings& settings, const Pass& pass);
 gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 0,
                         Writes writes = Writes::value);
 // The passes that these settings switch on, in order.
 std::vector<const Pass*> enabledPasses(const Settings& settings);
+// Whether the pass runs once for each sphere or triangle, all added up.
+bool drawsObjects(const Pass& pass);
 // What the pass writes under these settings.
 gl::Format formatOf(const Settings& settings, const Pass& pass);
 
@@ -35,6 +40,8 @@ double occlusionBytes(const Settings& settings, int width, int height);
 // The technique works on every nth pixel across and down; this is n (the setting `downscale`, 1
 // where it has none).
 int downscaleOf(const Settings& settings);
+// The technique shows a mean of so many frames (the setting `accumulate`, 1 where it has none).
+int accumulatedFrames(const Settings& settings);
 
 // The normals that a G-buffer must hold for a technique; none where it reads depth alone.
 std::optional<Normals> normalsFor(const Technique& technique, Normals kind);
@@ -51,7 +58,9 @@ struct OcclusionInputs {
     const Frame& frame; // the one that is bound
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
-    std::function<const TriangleBuffers&()> triangles = {};
+    Peel peel = {};
+    const SceneOccluders* occluders = nullptr; // makes of them what is asked for, then
+    std::function<const TriangleBuffers&()> tree = {};
     // Visibility within a radius (metres) by so many rays a pixel, in red, as large as the
     // G-buffer; good until the next call (renderer/reference/few_rays.h).
     std::function<const gl::Texture&(const GBuffer&, const Frame&, float radius, int rays)> traced =
@@ -79,10 +88,15 @@ class OcclusionPasses {
     // From now on images of this size, without compiling anything. What passes gave is lost.
     void resize(int width, int height);
 
-    // Visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must be bound. The
-    // texture lives as long as this object.
-    const gl::Texture& visibility(const OcclusionInputs& inputs,
-                                  const PassObserver& issued = {}) const;
+    // A still picture's visibility in red, 1 open, 0 blocked; empty pixels are open. The frame must
+    // be bound. What the technique accumulates is frames of this view alone, as many as it says.
+    // The texture lives as long as this object, and has this content until the next call.
+    const gl::Texture& visibility(const OcclusionInputs& inputs) const;
+    // The same of the next frame of a moving picture: what the technique accumulates goes on from
+    // the frame before, which the last call was for, until it is made to forget. Another size or
+    // other settings make it forget too.
+    const gl::Texture& next(const OcclusionInputs& inputs, const PassObserver& issued = {}) const;
+    void forget() const;
     // Whether that texture's other channels are light to add (technique.h).
     bool sendsLight() const;
 
@@ -97,10 +111,17 @@ class OcclusionPasses {
         gl::SlicedTarget target;
         int unit; // the texture unit from which later passes read it
     };
+    void drawLayers(const OcclusionInputs& inputs) const;
     void bindInputs(const OcclusionInputs& inputs) const;
     void run(const Step& step, const OcclusionInputs& inputs) const;
 
+    const gl::Texture& oneFrame(const OcclusionInputs& inputs, const Frame& frame,
+                                const PassObserver& issued) const;
+
     mutable std::optional<Reduction> reduction_; // keeps its frame
+    FurtherLayers layers_;
+    mutable std::optional<Accumulation> accumulation_;
+    mutable std::optional<gl::UniformBuffer> cycledFrame_;
     std::vector<Step> steps_;
     Settings settings_;
     gl::UniformBuffer block_;

@@ -43,9 +43,12 @@ enum class Stage {
     rows,    // the same in a compute shader, in groups of 128 x 1 that may share memory. Called for
              // pixels right of the target too (their value is dropped), so that all reach barriers
     columns, // the same in groups of 1 x 128
-    splat    // vec4 name(ivec2 pixel, vec4 sphere), once per proxy sphere (view space) over the
+    splat,   // vec4 name(ivec2 pixel, vec4 sphere), once per proxy sphere (view space) over the
              // pixels within `radius` x `distantReach` of it, all added up; its radius is the
              // fitted one x `sphereSize`
+    boxes    // vec4 name(ivec2 pixel, Occluder triangle), once per triangle (corners in view space)
+             // over the pixels behind which a box lies, all added up: the triangle's rectangle
+             // along its longest side, grown by `radius` in its plane and to the side that it faces
 };
 
 // What a pass is for; benches sum times by it.
@@ -94,8 +97,13 @@ enum Reads : unsigned {
     light = 2,      // albedoBuffer, ambientLight, directLight; environment.glsl
     spheres = 4,    // proxy spheres of the scene (renderer/scene/proxies.h)
     rays = 8,       // the triangles themselves: no passes, the reference gives visibility
-    triangles = 32, // in a tree (renderer/frame/triangle_buffers.h): tree.glsl
-    traced = 128 // tracedBuffer: visibility by `rays` rays a pixel (renderer/reference/few_rays.h)
+    layers = 16,    // secondDepth, thirdDepth: of depth, where the count `layers` asks for them
+    triangles = 32, // occluders (renderer/scene/occluders.h)
+    voxels = 64,    // voxelOpacity, voxelPlace, voxelScale: sides are `radius`, before it is
+                    // multiplied, / `voxels` (renderer/scene/voxels.h)
+    traced = 128,   // tracedBuffer: visibility by `rays` rays a pixel
+                    // (renderer/reference/few_rays.h)
+    tree = 256      // the triangles in a tree (renderer/frame/triangle_buffers.h): tree.glsl
 };
 
 // Settings that a technique's authors offer together under one name ("high"). The radius is never
@@ -133,8 +141,11 @@ struct Technique {
 // both tend to exp(-intensity |power| (1 - v)), so that no end of the one is one of all curves.
 // Matching (matching/match.h) fits the latter three, and what a row says is `fitted`. `guardBand`
 // is the share of the image's height that is rendered beyond each of its borders for the
-// technique's eyes only. `downscale` runs all passes on every nth pixel and spreads the result back
-// (renderer/techniques/reduction.h); what sends light cannot.
+// technique's eyes only. `layers` is how many layers of depth it reads
+// (renderer/techniques/further_layers.h). `downscale` runs all passes on every nth pixel and
+// spreads the result back (renderer/techniques/reduction.h); what sends light cannot. `accumulate`
+// is for techniques with noise: the picture is a mean of up to so many frames
+// (renderer/techniques/accumulation.h).
 
 std::span<const Technique> techniques();
 
@@ -202,10 +213,12 @@ constexpr bool wellFormed(const Technique& technique) {
         if (!wellFormed(technique.presets[i], technique.parameters))
             return false;
     }
-    // Five samplers are inputs, or six, and a shader has sixteen.
-    const std::size_t most = technique.reads & traced ? 10 : 11;
-    return technique.passes.size() <= most && !technique.id.empty() && !technique.title.empty() &&
-           !technique.citation.empty();
+    // Five samplers are inputs, some techniques read more, and a shader has sixteen.
+    const unsigned reads = technique.reads;
+    const std::size_t inputs =
+        5u + (reads & layers ? 2u : 0u) + (reads & voxels ? 1u : 0u) + (reads & traced ? 1u : 0u);
+    return technique.passes.size() + inputs <= 16 && !technique.id.empty() &&
+           !technique.title.empty() && !technique.citation.empty();
 }
 
 constexpr bool wellFormed(std::span<const Technique> table) {

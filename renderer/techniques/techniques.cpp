@@ -3,6 +3,7 @@
 #include "renderer/techniques/rows/gtao.h"
 #include "renderer/techniques/rows/horizon.h"
 #include "renderer/techniques/rows/light.h"
+#include "renderer/techniques/rows/objects.h"
 #include "renderer/techniques/rows/obscurance.h"
 #include "renderer/techniques/rows/points.h"
 #include "renderer/techniques/rows/traced.h"
@@ -31,6 +32,7 @@ constexpr Technique table[] = {
     rows::horizon::multiScale,
     rows::gtao::gtao,
     rows::gtao::visibilityBitmask,
+    rows::gtao::gtVbao,
     rows::obscurance::alchemy,
     rows::obscurance::alchemyFormOne,
     rows::obscurance::alchemyCs562,
@@ -42,6 +44,8 @@ constexpr Technique table[] = {
     rows::vao::vaoPlusPlus,
     rows::lit::ssdo,
     rows::lit::proxySpheresTechnique,
+    rows::objects::volumes,
+    rows::objects::voxelAo,
     rows::traced::rayTraced,
     rows::traced::rtao,
     rows::traced::rtaoBvh,

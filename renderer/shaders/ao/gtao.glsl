@@ -11,6 +11,10 @@
 // covers the whole sphere and ends at the screen's border. XeGTAO's fade for radii below 10 pixels
 // is left out. Power is applied after denoising, and so is the minimum visibility.
 //
+// Ours: with `layers` above 1 a tap raises the horizon to the highest of its layers. What lies
+// behind never blocks more than what it lies behind, unless that is too near to the camera to
+// count: then it stands in.
+//
 // Limit with a hard radius (falloff 0): the cosine-weighted share of directions above the horizon,
 // the highest thing within the radius, slice by slice. Beside a curb of height h at distance d,
 // seen from above, with tan a = d / (h cos phi) where the rim is within the radius, and pi/2
@@ -22,6 +26,7 @@
 
 #include "adaptive.glsl"
 #include "edges.glsl"
+#include "layers.glsl"
 #include "slices.glsl"
 
 // Int_0^a of cos(t - turn) sin t times sin t and cos t: how far directions up to `a` lean to the
@@ -48,6 +53,15 @@ float faded(Tap tap, float plane) {
     return tap.seen ? mix(plane, cosine, weight) : plane;
 }
 
+// The highest of a tap's layers, as a cosine.
+float highest(Point p, Slice slice, float direction, float reach, float place, float plane) {
+    Tap tap = tapAt(p, slice, direction, reach, place);
+    float cosine = faded(tap, plane);
+    for (int i = 1; i < int(settings.layers); ++i)
+        cosine = max(cosine, faded(tapBehind(p, slice, direction, reach, tap, i), plane));
+    return cosine;
+}
+
 // The cosines of the angles from the view to the highest thing on both sides of a slice; cos(turn +
 // pi/2) where that is the surface's own plane.
 vec2 horizonsOf(Point p, Slice slice, float noise, int index) {
@@ -55,9 +69,8 @@ vec2 horizonsOf(Point p, Slice slice, float noise, int index) {
     int j = 0;
     do {
         float place = tapPlace(noise, index, j);
-        Tap ahead = tapAt(p, slice, 1.0, reaches.x, place);
-        Tap behind = tapAt(p, slice, -1.0, reaches.y, place);
-        horizons = max(horizons, vec2(faded(ahead, plane.x), faded(behind, plane.y)));
+        horizons = max(horizons, vec2(highest(p, slice, 1.0, reaches.x, place, plane.x),
+                                      highest(p, slice, -1.0, reaches.y, place, plane.y)));
     } while (++j < int(settings.steps));
     return horizons;
 }

@@ -25,10 +25,11 @@
 #include "noise.glsl"
 
 // Section 4.5: nine rotations dealt over 3 x 3 pixels in steps of 160 degrees, so that neighbours
-// have unlike ones; the seed turns them all. Columns turn a point.
+// have unlike ones; the seed turns them all, and each accumulated frame by 80 degrees more. Columns
+// turn a point.
 mat2 tileRotation(ivec2 pixel) {
     vec2 place = vec2(pixel) - 3.0 * floor((vec2(pixel) + 0.5) / 3.0); // in the tile
-    float turn = unitFloat(hash(uint(frame.seed.x)));
+    float turn = unitFloat(hash(tileSeed())) + 2.0 * float(tileFrame());
     float angle = 6.28318531 / 9.0 * (4.0 * place.x + 3.0 * place.y + turn);
     return mat2(cos(angle), sin(angle), -sin(angle), cos(angle));
 }

@@ -16,7 +16,8 @@ constexpr Parameter crytekParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 // The accessibility curve of appendix B, with lengths in radii instead of the appendix's scene
 // units, so that one setting serves scenes of any size.
@@ -60,7 +61,8 @@ constexpr Parameter blizzardParameters[] = {samples(24, "Jakobsen 2010, section 
                                             radiusMultiplier(),
                                             intensity(),
                                             power(),
-                                            downscale};
+                                            downscale,
+                                            accumulate};
 
 constexpr Parameter blizzardCorrectedParameters[] = {
     samples(24, "Jakobsen 2010, section 5.3"),
@@ -77,7 +79,8 @@ constexpr Parameter blizzardCorrectedParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter rayMarchParameters[] = {
     samples(30, "Jakobsen 2010, section 5.3", "directions per pixel"),
@@ -92,7 +95,8 @@ constexpr Parameter rayMarchParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 // A march ends where something blocks it.
 constexpr auto rayMarchPasses =

@@ -53,6 +53,26 @@ constexpr Parameter downscale{
     4,
     "the paper, whose passes are all of one size"};
 
+constexpr Parameter guardBand(float value, std::string_view source) {
+    return {"guardBand",
+            Unit::ratio,
+            "share of the image's height that is rendered beyond each border for taps to find",
+            value,
+            0,
+            0.5f,
+            source};
+}
+
+constexpr Parameter accumulate{
+    "accumulate",
+    Unit::count,
+    "1: each frame stands alone; n: the mean of up to n frames whose noise differs, carried along "
+    "with what they show (temporal accumulation)",
+    1,
+    1,
+    64,
+    "ours: a single frame is what papers measure"};
+
 constexpr Parameter samples(float value, std::string_view source,
                             std::string_view meaning = "points tested per pixel") {
     return {"samples", Unit::count, meaning, value, 1, 16384, source};

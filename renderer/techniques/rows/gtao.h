@@ -7,11 +7,10 @@
 namespace obscura::rows::gtao {
 
 constexpr Parameter slices{
-    "slices", Unit::count,          "planes through the view vector, per pixel", 3, 1,
-    64,       "XeGTAO, preset high"};
+    "slices", Unit::count,        "planes through the view vector, per pixel", 2, 1,
+    64,       "ours: preset high"};
 constexpr Parameter slicesSteps{
-    "steps", Unit::count,          "depth taps along each side of a slice", 3, 1,
-    256,     "XeGTAO, preset high"};
+    "steps", Unit::count, "depth taps along each side of a slice", 5, 1, 256, "ours: preset high"};
 constexpr Parameter samplePower{
     "samplePower",
     Unit::ratio,
@@ -30,8 +29,36 @@ constexpr Parameter levelOffset{
     16,
     "XeGTAO 1.30"};
 constexpr Parameter denoise{
-    "denoise", Unit::count, "passes of the edge-aware 3 x 3 filter: 1 sharp, 2 medium, 3 soft",   2,
-    0,         3,           "ours: XeGTAO's 1 counts on temporal accumulation, which we have not"};
+    "denoise", Unit::count, "passes of the edge-aware 3 x 3 filter: 1 sharp, 2 medium, 3 soft",
+    1,         0,           3,
+    "XeGTAO"};
+
+constexpr Parameter edgeDepth{
+    "edgeDepth",
+    Unit::ratio,
+    "change of depth, as a part of the depth, that is an edge for the denoiser",
+    0.003f,
+    1e-4f,
+    1,
+    "ours: XeGTAO's 0.011 blurs reliefs"};
+constexpr Parameter edgeAngle{
+    "edgeAngle",
+    Unit::degree,
+    "angle between the normals of neighbours from which on it is an edge for the denoiser; 180: "
+    "none is",
+    20,
+    1,
+    180,
+    "ours: XeGTAO has none, and blurs creases"};
+
+constexpr Parameter layersOfDepth{
+    "layers",
+    Unit::count,
+    "of depth that each tap reads: what is seen, and what lies behind it",
+    1,
+    1,
+    3,
+    "neither paper peels"};
 
 constexpr Parameter adaptive{
     "adaptive",
@@ -71,30 +98,69 @@ constexpr Parameter gtaoParameters[] = {
      0, 0, 1, "XeGTAO, off"},
     samplePower,
     levelOffset,
+    layersOfDepth,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
     adaptive,
     adaptiveRange,
     denoise,
-    radiusMultiplier(1.457f, "XeGTAO, tuned against ray tracing"),
+    edgeDepth,
+    edgeAngle,
+    radiusMultiplier(2, "ours: the fits of presets high and ultra; XeGTAO's 1.457 is for 3 steps"),
     intensity(),
-    power(2.2f, "XeGTAO, tuned against ray tracing"),
-    downscale};
+    power(1.35f, "ours: the same; XeGTAO's 2.2 makes up for what 3 steps miss"),
+    downscale,
+    accumulate};
 
 constexpr Parameter bitmaskParameters[] = {
     radius,
     slices,
     slicesSteps,
     {"thickness", Unit::ratio,
-     "how far, in radii, every surface extends behind what is seen of it; light passes behind",
-     0.5f, 1e-3f, 1e6f, "Bevy: 0.25 m at our radius of 0.5 m"},
+     "how far, in radii, every surface extends behind what is seen of it; light passes behind", 1,
+     1e-3f, 1e6f, "ours: best on seven of eight views, and what the depth reference assumes"},
     samplePower,
     levelOffset,
+    layersOfDepth,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
     adaptive,
     adaptiveRange,
     denoise,
+    edgeDepth,
+    edgeAngle,
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
+
+constexpr Parameter gtVbaoParameters[] = {
+    radius,
+    slices,
+    slicesSteps,
+    {"thickness", Unit::ratio,
+     "how far, in radii, every surface extends at least behind what is seen of it", 0.5f, 1e-3f,
+     1e6f, "ours: less makes too much of Sponza thin"},
+    {"surfaceSlope", Unit::ratio,
+     "change of depth, as a part of the distance between two taps, up to which they are of one "
+     "surface, which is as thick as it is wide",
+     2, 0, 100, "ours: between 1, best for a room's thin legs, and 4, best for the dragon"},
+    samplePower,
+    levelOffset,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
+    adaptive,
+    adaptiveRange,
+    denoise,
+    edgeDepth,
+    edgeAngle,
+    radiusMultiplier(),
+    intensity(),
+    power(),
+    downscale,
+    accumulate};
+
+inline double layersOf(const Settings& s) {
+    return s.has("layers") ? static_cast<double>(s["layers"]) : 1.0;
+}
 
 constexpr Pass depthLevelsPass{.name = "depths",
                                .format = Format::r32f,
@@ -102,28 +168,29 @@ constexpr Pass depthLevelsPass{.name = "depths",
                                .work = Work::prepare,
                                .fetches = one,
                                .levelFetches = [](const Settings&) { return 4.0; }};
-constexpr Pass surveyPass{.name = "survey",
-                          .format = Format::r16f,
-                          .enabledBy = "adaptive",
-                          .scale = 4,
-                          .work = Work::prepare,
-                          .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"]; }};
+constexpr Pass surveyPass{
+    .name = "survey",
+    .format = Format::r16f,
+    .enabledBy = "adaptive",
+    .scale = 4,
+    .work = Work::prepare,
+    .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"] * layersOf(s); }};
 constexpr Pass countsPass{.name = "counts",
                           .format = Format::r16f,
                           .enabledBy = "adaptive",
                           .scale = 4,
                           .work = Work::prepare,
                           .fetches = [](const Settings&) { return 9.0; }};
-// Fetches depth and normal of the pixel and how many slices it gets, and the depth of each tap
+// Fetches depth and normal of the pixel and how many slices it gets, and the depths of each tap
 // along both sides of each slice.
 constexpr Fetches slicesTaps = [](const Settings& s) {
-    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"];
+    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"] * layersOf(s);
 };
 constexpr Pass edgesPass{.name = "edges",
                          .format = Format::rgba8,
                          .enabledBy = "denoise",
                          .work = Work::prepare,
-                         .fetches = [](const Settings&) { return 5.0; }};
+                         .fetches = [](const Settings&) { return 10.0; }}; // depths, normals
 // Fetches depth of the pixel; edges of it and its four neighbours; and nine values, which take four
 // fetches (textureGather) where the texture has one channel.
 constexpr Pass denoisePass(std::string_view name, int from, std::string_view widenedBy = {}) {
@@ -167,31 +234,59 @@ constexpr Pass bitmaskPasses[] = {
     denoisePass("denoiseThrice", 3),
 };
 
-// XeGTAO's presets: their slices and steps.
+// As many taps as XeGTAO's presets of these names have, or about: 4, 8, 20, 54. But few slices of
+// many steps, for what a side of a slice steps over is lost, and the denoiser evens out slices.
 constexpr PresetValue presetLow[] = {{"slices", 1}, {"steps", 2}};
 constexpr PresetValue presetMedium[] = {{"slices", 2}, {"steps", 2}};
-constexpr PresetValue presetHigh[] = {{"slices", 3}, {"steps", 3}};
-constexpr PresetValue presetUltra[] = {{"slices", 9}, {"steps", 3}};
+constexpr PresetValue presetHigh[] = {{"slices", 2}, {"steps", 5}};
+constexpr PresetValue presetUltra[] = {{"slices", 3}, {"steps", 9}};
 constexpr Preset slicesPresets[] = {
     {"low", presetLow}, {"medium", presetMedium}, {"high", presetHigh}, {"ultra", presetUltra}};
+
+// XeGTAO's own values.
+constexpr std::array<PresetValue, 9> asXeGtao(float sliceCount, float stepCount) {
+    return {{{"slices", sliceCount},
+             {"steps", stepCount},
+             {"falloff", 0.615f},
+             {"minimumVisibility", 0.03f},
+             {"denoise", 1},
+             {"edgeDepth", 0.011f},
+             {"edgeAngle", 180},
+             {"radiusMultiplier", 1.457f},
+             {"power", 2.2f}}};
+}
+constexpr std::array xeGtaoLow = asXeGtao(1, 2), xeGtaoMedium = asXeGtao(2, 2),
+                     xeGtaoHigh = asXeGtao(3, 3), xeGtaoUltra = asXeGtao(9, 3);
+constexpr Preset gtaoPresets[] = {{"low", presetLow},          {"medium", presetMedium},
+                                  {"high", presetHigh},        {"ultra", presetUltra},
+                                  {"xegtao_low", xeGtaoLow},   {"xegtao_medium", xeGtaoMedium},
+                                  {"xegtao_high", xeGtaoHigh}, {"xegtao_ultra", xeGtaoUltra}};
 
 constexpr Technique gtao{"gtao",
                          "Ground-truth AO (XeGTAO)",
                          "Jimenez, Wu, Pesce and Jarabo 2016; parameters of XeGTAO 1.30 (Strugar "
                          "and McCalla 2021)",
-                         normals | light,
+                         normals | light | layers,
                          nullptr,
                          gtaoParameters,
                          gtaoPasses,
-                         slicesPresets};
+                         gtaoPresets};
 constexpr Technique visibilityBitmask{
     "visibility_bitmask",
     "Visibility bitmask 2023",
     "Therrien, Levesque and Gilet 2023, with cosine-weighted sectors",
-    normals,
+    normals | layers,
     nullptr,
     bitmaskParameters,
     bitmaskPasses,
     slicesPresets};
+constexpr Technique gtVbao{"gt_vbao",
+                           "GT-VBAO 2024, thick as wide",
+                           "Salm 2024, after Therrien et al. 2023; thickness after Ottosson 2025",
+                           normals,
+                           nullptr,
+                           gtVbaoParameters,
+                           bitmaskPasses,
+                           slicesPresets};
 
 } // namespace obscura::rows::gtao

@@ -69,12 +69,14 @@ constexpr Parameter hbaoParameters[] = {
     radiusMultiplier(),
     horizonIntensity,
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter hbaoDeinterleavedParameters[] = {
     horizonDirections,  horizonSteps,     radius,      horizonBias,
     horizonAttenuation, horizonReach,     horizonBlur, horizonBlurRadius(3, horizonSource),
-    radiusMultiplier(), horizonIntensity, power(),     downscale};
+    radiusMultiplier(), horizonIntensity, power(),     downscale,
+    accumulate};
 
 constexpr Parameter hbaoPlusParameters[] = {
     horizonDirections,
@@ -91,7 +93,8 @@ constexpr Parameter hbaoPlusParameters[] = {
     radiusMultiplier(),
     intensity(2, "HBAO+ 3.0, CoarseAO: twice the mean"),
     power(2, "HBAO+ 3.0, README"),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter multiScaleParameters[] = {
     horizonDirections,
@@ -111,7 +114,8 @@ constexpr Parameter multiScaleParameters[] = {
     radiusMultiplier(),
     horizonIntensity,
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 // Fetches depth and normal of the pixel, and depth of each tap. Lines of fewer pixels than steps
 // have fewer steps.

@@ -29,6 +29,7 @@ constexpr Parameter ssdoParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
+    accumulate,
 };
 
 // Fetches of the blurred result of a pass, or of the result itself where nothing is blurred.
@@ -95,7 +96,8 @@ constexpr Parameter proxySpheresParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 // Far pixels take fewer samples; a sphere out of reach needs no normal.
 constexpr Pass proxySpheresPasses[] = {

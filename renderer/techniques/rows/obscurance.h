@@ -87,7 +87,8 @@ constexpr Parameter alchemyParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(1, alchemyPaper),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter alchemyFormOneParameters[] = {samples(12, "McGuire et al. 2011, figure 1"),
                                                   radius,
@@ -99,12 +100,15 @@ constexpr Parameter alchemyFormOneParameters[] = {samples(12, "McGuire et al. 20
                                                   radiusMultiplier(),
                                                   intensity(),
                                                   power(1, alchemyPaper),
-                                                  downscale};
+                                                  downscale,
+                                                  accumulate};
 
 constexpr Parameter alchemyCs562Parameters[] = {
     samples(18, "ours: the spiral's nine directions twice"),
     radius,
-    depthBias,
+    {"bias", Unit::ratio,
+     "height above the pixel's plane, as a part of the tap's depth, that does not occlude", 0.001f,
+     0, 1, "Kim 2022"},
     falloffStart,
     bilateral,
     blurRadius,
@@ -112,7 +116,8 @@ constexpr Parameter alchemyCs562Parameters[] = {
     radiusMultiplier(),
     intensity(1, "Kim 2022, first picture"),
     power(1, "Kim 2022, first picture"),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr std::string_view saoProgram = "the authors' program, for a radius of 1 m";
 constexpr Parameter saoParameters[] = {
@@ -128,9 +133,7 @@ constexpr Parameter saoParameters[] = {
     {"mipOffset", Unit::count,
      "log2 of the distance in pixels up to which taps read full-resolution depth (q')", 3, 0, 16,
      "McGuire et al. 2012, equation 10"},
-    {"guardBand", Unit::ratio,
-     "share of the image's height that is rendered beyond each border for taps to find", 0.1f, 0,
-     0.5f, "ours: McGuire et al. 2012 name none"},
+    guardBand(0.1f, "ours: McGuire et al. 2012 name none"),
     {"blur", Unit::flag, "two passes of seven taps, keyed on depth", 1, 0, 1,
      "McGuire et al. 2012"},
     {"blurStep", Unit::count, "pixels from one tap of the blur to the next", 2, 1, 8,
@@ -140,7 +143,8 @@ constexpr Parameter saoParameters[] = {
     radiusMultiplier(),
     intensity(1, "the authors' program"),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 // Fetches depth of the pixel, and of each of seven taps depth and value, each in one fetch with
 // that of the tap's neighbour in the quad.

@@ -15,7 +15,8 @@ constexpr Parameter starcraftParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter crytekShaderX7Parameters[] = {
     samples(24, "Jakobsen 2010, section 5.3", "points tested per pixel; whole cubes of eight"),
@@ -24,7 +25,8 @@ constexpr Parameter crytekShaderX7Parameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr auto starcraftPasses = gatherAndBlur(surfaceAndSamples, boxBlur);
 

@@ -83,7 +83,7 @@ constexpr Technique rtao{
 constexpr Technique rtaoBvh{"rtao_bvh",
                             "Ray-traced AO (shader)",
                             "as rtao, traced by a shader in a tree of boxes that Embree builds",
-                            normals | triangles,
+                            normals | tree,
                             nullptr,
                             rtaoParameters,
                             rtaoBvhPasses,

@@ -51,7 +51,8 @@ constexpr Parameter vaoPlusPlusParameters[] = {
      "ours: fills that window; the paper leaves it to the user"},
     radiusMultiplier(),
     intensity(),
-    power()};
+    power(),
+    accumulate};
 
 // A filter along one axis fetches depth of the pixel, and depth and value of each tap.
 constexpr Fetches filterTaps = [](const Settings& s) {

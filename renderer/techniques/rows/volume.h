@@ -24,7 +24,8 @@ constexpr Parameter obscuranceParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter obscurancePointsParameters[] = {
     samples(33, "Loos and Sloan 2010, figure 1a"),
@@ -36,7 +37,8 @@ constexpr Parameter obscurancePointsParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Parameter obscuranceAreaParameters[] = {radius, radiusMultiplier(), intensity(), power(),
                                                   downscale};
@@ -63,7 +65,8 @@ constexpr Parameter vaoParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr Technique obscurance{"volumetric_obscurance",
                                "Volumetric obscurance, lines",

@@ -94,6 +94,31 @@ TEST(Reprojection, WhatWasHiddenIsInvalid) {
     EXPECT_EQ(hidden, 4); // 5 pixels of far wall, 0.1 m each, less the one beside the edge
 }
 
+// The far wall beside the near one's edge: a bilinear fetch there reads both walls, but one of its
+// pixels shows the point's own surface. Only what no pixel showed was not seen.
+TEST(Reprojection, WhatIsSeenBesideAnEdgeIsNotHidden) {
+    const PlaneOfRay walls = [](glm::dvec3 origin, glm::dvec3 ahead) {
+        return origin.x + 2 * ahead.x < 0 ? -2.0 : -4.0;
+    };
+    const Surfaces now = planeSurfaces(planeCamera(0.53), walls),
+                   before = planeSurfaces(planeCamera(), walls);
+    const Reprojection back(now, before);
+    int unseen = 0, beside = 0;
+    for (std::size_t x = 0; x < planeWidth; ++x) {
+        const std::size_t pixel = planeWidth * planeHeight / 2 + x;
+        const auto seen = back.seenAt(pixel);
+        ASSERT_TRUE(seen || !back.valid(pixel));
+        if (!seen)
+            ++unseen;
+        else
+            EXPECT_EQ(now.depth[pixel], before.depth[*seen]) << x;
+        beside += seen && !back.valid(pixel);
+    }
+    EXPECT_EQ(beside, 2); // one pixel of each wall
+    // 5.3 pixels of far wall came from behind the near one, and as many over the right border.
+    EXPECT_NEAR(unseen, 2 * 5.3, 2);
+}
+
 TEST(Reprojection, BilinearFetchesBlurAsTheHeaderSays) {
     const Reprojection back(wallSurfaces(planeCamera(0.05), 4), wallSurfaces(planeCamera(), 4));
     for (const int period : {2, 10}) { // moved by half a pixel

@@ -34,11 +34,15 @@ class Temporal : public GlTest {
     }
     static double value(const std::vector<StabilityCell>& cells, const std::string& technique,
                         const std::string& test) {
+        return headlineOf(cells, technique, test); // whose names are those of the techniques
+    }
+    static double headlineOf(const std::vector<StabilityCell>& cells,
+                             const std::string& configuration, const std::string& test) {
         for (const StabilityCell& cell : cells)
-            if (cell.technique == technique && cell.test == test &&
+            if (cell.configuration == configuration && cell.test == test &&
                 cell.measure == temporalTest(test).test.measure)
                 return cell.value;
-        throw Error("expected a cell of " + technique);
+        throw Error("expected a cell of " + configuration);
     }
 
     Scene scene_;
@@ -84,7 +88,8 @@ TEST_F(Temporal, WritesTheCellsPicturesAndTheAnimation) {
     std::vector<double> shares;
     const auto cells = measureTemporal(
         study({"turn", "cut"}), [&](double share, const std::string&) { shares.push_back(share); });
-    ASSERT_EQ(cells.size(), 4 * 7 + 4 * 5 + 1); // a cut has no second differences
+    ASSERT_EQ(cells.size(), 4 * 8 + 4 * 6 + 1); // a cut has no second differences; nothing
+                                                // comes into sight
     for (const StabilityCell& cell : cells) {
         EXPECT_TRUE(std::isfinite(cell.value)) << cell.measure;
         EXPECT_TRUE(cell.picture.empty() || fs::exists(folder_ / cell.picture));
@@ -97,6 +102,44 @@ TEST_F(Temporal, WritesTheCellsPicturesAndTheAnimation) {
     EXPECT_TRUE(fs::exists(folder_ / cells.back().picture));
     EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
     EXPECT_EQ(shares.size(), 8);
+}
+
+// Noise alone flickers, and the mean of eight frames less: by the root of 15 if all were
+// independent, for an exponential mean of weight 1 / n is one of 2 n - 1 frames.
+TEST_F(Temporal, AccumulationSteadiesAStillCamera) {
+    TemporalStudy both = study({"still"});
+    Settings settings(technique("alchemy"));
+    settings.set("blur", 0);
+    both.configurations = {{"alone", settings}};
+    settings.set("accumulate", 8);
+    both.configurations.push_back({"accumulated", settings});
+    both.effort.frames = 12;
+    const auto cells = measureTemporal(both);
+    const double alone = headlineOf(cells, "alone", "still"),
+                 accumulated = headlineOf(cells, "accumulated", "still");
+    EXPECT_GT(alone, 0.005);
+    EXPECT_LT(accumulated, alone / 3);
+    EXPECT_GT(accumulated, alone / 12); // noise cycles
+}
+
+TEST_F(Temporal, GhostsShowWhereAccumulationIsWrong) {
+    TemporalStudy both = study({"orbit", "cut"});
+    Settings settings(technique("gtao"));
+    both.configurations = {{"alone", settings}};
+    settings.set("accumulate", 8);
+    both.configurations.push_back({"accumulated", settings});
+    both.effort.frames = 6;
+    const auto cells = measureTemporal(both);
+    EXPECT_LT(headlineOf(cells, "accumulated", "orbit"), headlineOf(cells, "alone", "orbit"));
+    int ghosts = 0;
+    for (const StabilityCell& cell : cells) {
+        if (!cell.measure.starts_with("ghosts"))
+            continue;
+        EXPECT_EQ(cell.configuration, "accumulated");
+        EXPECT_LT(cell.value, cell.test == "orbit" ? 0.05 : 0.2) << cell.measure;
+        ++ghosts;
+    }
+    EXPECT_GE(ghosts, 2);
 }
 
 TEST_F(Temporal, BadInputIsAnError) {

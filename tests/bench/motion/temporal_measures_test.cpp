@@ -113,6 +113,36 @@ TEST(MotionError, OneFlashIsTheWorstFrame) {
     EXPECT_NEAR(middle, 0.2 / (frames - 1), 1e-4); // there and back again in seven steps
 }
 
+// A wall that moves by 2.5 pixels a frame to the left: each frame brings as much over the right
+// border.
+TEST(NewlySeen, HoldsForEightFramesOnTheSurface) {
+    NewlySeen newly(planeWidth * planeHeight);
+    const auto count = [&] { // in the middle row
+        int sum = 0;
+        for (std::size_t x = 0; x < planeWidth; ++x)
+            sum += newly[planeHeight / 2 * planeWidth + x];
+        return sum;
+    };
+    EXPECT_EQ(count(), 0);
+    for (int frame = 1; frame <= 12; ++frame) {
+        newly.step(Reprojection(wallAt(frame), wallAt(frame - 1)));
+        EXPECT_NEAR(count(), shift * std::min(frame, NewlySeen::frames), 2.5) << frame;
+    }
+    for (int frame = 1; frame <= NewlySeen::frames; ++frame) { // and stops
+        EXPECT_GT(count(), 0) << frame;
+        newly.step(Reprojection(wallAt(12), wallAt(12)));
+    }
+    EXPECT_EQ(count(), 0);
+}
+
+TEST(TruthError, IsTheRootOfTheMeanSquare) {
+    TruthError error;
+    EXPECT_TRUE(std::isnan(error.rmse()));
+    error.add(0.75f, 0.25f);
+    error.add(0, 0);
+    EXPECT_NEAR(error.rmse(), 0.5 / std::sqrt(2.0), 1e-9);
+}
+
 TEST(StillNoise, GivesTheDeviationOfTheNoise) {
     constexpr double deviation = 0.05, c4 = 0.99577; // mean of the estimate of 60 normal values
     std::mt19937_64 random(1);

@@ -1,5 +1,7 @@
 #include "base/error.h"
 #include "renderer/builtin/builtin.h"
+#include "renderer/framing.h"
+#include "renderer/reference/ray_scene.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -180,6 +182,79 @@ TEST(BuiltinSizes, FiguresHaveOcclusionPaintedIntoTheirColours) {
             dark += image.pixels[i] < 60 ? 1 : 0;
         EXPECT_GT(dark, image.pixels.size() / 4 / 20) << name;
     }
+}
+
+std::size_t trianglesOf(const Scene& scene) { return scene.indices.size() / 3; }
+
+TEST(BuiltinSizes, RoomIsAsLargeAsARoomAndLightEnough) {
+    const Bounds bounds = sceneNamed("room").bounds();
+    EXPECT_NEAR(bounds.high.y, 2.8, 0.05); // the ceiling's upper side
+    EXPECT_NEAR(bounds.high.z - bounds.low.z, 5.2, 0.05);
+    EXPECT_NEAR(bounds.low.x, -3.3, 0.05);
+    EXPECT_LT(trianglesOf(sceneNamed("room")), 150000U);
+}
+
+TEST(BuiltinSizes, GardenIsAsLargeAsAGardenAndLightEnough) {
+    const Bounds bounds = sceneNamed("garden").bounds();
+    EXPECT_NEAR(bounds.high.y, 5, 0.5);   // the tree
+    EXPECT_NEAR(bounds.low.z, -4.5, 0.1); // the hedge beyond the lane
+    EXPECT_LT(trianglesOf(sceneNamed("garden")), 250000U);
+}
+
+// No light leaks: what leaves the room's middle without meeting anything leaves by a window.
+TEST(BuiltinRoom, IsOpenAtItsWindowsAlone) {
+    const RayScene rays(sceneNamed("room"));
+    const glm::vec3 eye(0.3F, 1.9F, 0.2F);
+    int open = 0, elsewhere = 0;
+    for (int i = 0; i < 60000; ++i) { // Fibonacci's points on the sphere
+        const float y = 1 - (2 * static_cast<float>(i) + 1) / 60000;
+        const float turn = 2.3999632F * static_cast<float>(i), out = std::sqrt(1 - y * y);
+        const glm::vec3 way(out * std::cos(turn), y, out * std::sin(turn));
+        RTCRayHit ray{};
+        ray.ray = {eye.x, eye.y, eye.z, 0, way.x, way.y, way.z, 0, INFINITY, ~0U, 0, 0};
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        findNearest(rays.handle(), ray);
+        if (!std::isinf(ray.ray.tfar))
+            continue;
+        ++open;
+        const auto within = [&](int axis, float face, glm::vec2 along, glm::vec2 up) {
+            const glm::vec3 p = eye + (face - eye[axis]) / way[axis] * way;
+            return way[axis] * face > 0 && p[2 - axis] > along.x && p[2 - axis] < along.y &&
+                   p.y > up.x && p.y < up.y;
+        };
+        elsewhere += within(0, 3, {-1.5F, 0.7F}, {0.32F, 2.28F}) ||
+                             within(2, -2.3F, {0.35F, 1.75F}, {0.92F, 2.28F})
+                         ? 0
+                         : 1;
+    }
+    EXPECT_GT(open, 300);
+    EXPECT_EQ(elsewhere, 0);
+}
+
+TEST(BuiltinRoom, IsFramedFromWithin) {
+    const Scene& scene = sceneNamed("room");
+    const Framing found = framing(scene, RayTracer(scene), 1);
+    EXPECT_TRUE(found.inside) << found.why;
+}
+
+// Seen from outside it is the backs of walls and hedges: the garden brings its own camera.
+TEST(BuiltinGarden, IsFramedFromItsTerrace) {
+    const Scene& scene = sceneNamed("garden");
+    const Framing found = framing(scene, RayTracer(scene), 1);
+    EXPECT_NEAR(found.camera.position[0], 3.9, 1e-3) << found.why;
+    EXPECT_NEAR(found.camera.position[2], 3.4, 1e-3) << found.why;
+}
+
+TEST(BuiltinGarden, HasCutOutLeavesAndThinBlades) {
+    const Scene& scene = sceneNamed("garden");
+    std::size_t cutOut = 0, blades = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        const Material& material = scene.materials[static_cast<std::size_t>(mesh.material)];
+        cutOut += material.alphaCutoff > 0 ? mesh.indexCount / 3 : 0;
+        blades += material.name == "grass" ? mesh.indexCount / 3 : 0;
+    }
+    EXPECT_GT(cutOut, 50000U);
+    EXPECT_GT(blades, 50000U);
 }
 
 TEST(BuiltinNames, UnknownNameIsAnErrorThatGivesTheNearest) {

@@ -72,6 +72,17 @@ TEST_F(RaysAndRasteriser, AgreeOnTheAtrium) {
     EXPECT_GT(sightAgreement(atrium, camera, 160, 90), 0.97);
 }
 
+// Leaves cut out by alpha, and blades of grass narrower than a pixel.
+TEST_F(RaysAndRasteriser, AgreeOnTheGarden) {
+    Camera camera;
+    camera.position = {2.2, 1.3, -0.9};
+    camera.target = {4.8, 0.7, -3.5};
+    camera.fovDegrees = 60;
+    const Scene garden = builtinScene("garden");
+    EXPECT_GT(agreement(garden, camera, 320, 180), 0.995);
+    EXPECT_GT(sightAgreement(garden, camera, 160, 90), 0.97);
+}
+
 // From within a box of which only the outside is drawn, one sees what is around it; a picture and
 // who looks by rays alike.
 TEST_F(RaysAndRasteriser, AgreeOnBacks) {
@@ -85,6 +96,48 @@ TEST_F(RaysAndRasteriser, AgreeOnBacks) {
     EXPECT_GT(sightAgreement(scene, camera, 64, 36), 0.98);
     scene.materials[0].doubleSided = true;
     EXPECT_GT(sightAgreement(scene, camera, 64, 36), 0.98);
+}
+
+// A floor whose normals lean away from the eye or contradict its winding, seen at 10 degrees. A
+// hemisphere whose axis leans by an angle b from a plane's normal has the cosine-weighted share
+// (1 + cos b) / 2 above the plane. By hand: what leans beyond the view is bent to lie across it, 10
+// degrees from the floor's normal; what lies below the floor is mirrored first.
+TEST_F(RaysAndRasteriser, SeeNormalsOnTheVisibleSide) {
+    const auto leaning = [](double degrees) { // towards +x, where the eye is
+        return glm::vec3(std::sin(degrees * M_PI / 180), std::cos(degrees * M_PI / 180), 0);
+    };
+    Camera camera;
+    camera.position = {200 * std::cos(M_PI / 18), 200 * std::sin(M_PI / 18), 0};
+    camera.target = {0, 0, 0};
+    camera.fovDegrees = 0.2;
+    for (const auto& [lean, expected] : {std::pair(30, 30.0),
+                                         {80, 80.0},
+                                         {-5, -5.0},
+                                         {-60, -10.0},
+                                         {180, 0.0},
+                                         {175, 5.0},
+                                         {-120, -10.0}}) {
+        Scene scene;
+        addQuad(scene, {glm::vec3(-4, 0, 4), glm::vec3(4, 0, 4), glm::vec3(4, 0, -4),
+                        glm::vec3(-4, 0, -4)});
+        for (Vertex& vertex : scene.vertices)
+            vertex.normal = leaning(lean);
+        const GpuScene gpuScene(scene);
+        const Surfaces drawn =
+            surfacesOf(gpuScene, GBufferPass(), makeFrame(camera, 8, 8, gpuScene.bounds(), 1),
+                       Normals::smooth);
+        const glm::vec3 normal =
+            glm::mat3(drawn.frame.worldFromView) * drawn.normal[drawn.index(4, 4)];
+        EXPECT_GT(glm::dot(normal, leaning(expected)), 0.9999f) << lean;
+        EXPECT_GT(sightAgreement(scene, camera, 8, 8), 0.98) << lean;
+        TraceSettings settings;
+        settings.radius = 1;
+        const Image traced = RayTracer(scene).trace(drawn, settings).visibility;
+        double mean = 0;
+        for (const float visibility : traced.pixels)
+            mean += static_cast<double>(visibility) / 64;
+        EXPECT_NEAR(mean, (1 + std::cos(expected * M_PI / 180)) / 2, 0.003) << lean;
+    }
 }
 
 // A sheet with square holes above a floor; filtered, repeated, mirrored by negative coordinates.

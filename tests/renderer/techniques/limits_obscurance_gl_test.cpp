@@ -148,6 +148,25 @@ TEST_F(ObscuranceLimits, BiasEpsilonAndFalloffEnterAsTheirFormulasSay) {
     expectLimit(exact("sao", {{"bias", 0.1}, {"epsilon", 0.1}}), scalable, 0.005);
 }
 
+// The report's delta goes with the tap's depth: of a floor 2 m below the camera and a step on it,
+// whose top is h above every pixel's plane and 2 - h deep, each term shrinks by delta (2 - h) / h.
+TEST_F(ObscuranceLimits, Cs562sBiasIsOfTheTapsDepth) {
+    constexpr double h = 0.5, delta = 0.29;
+    Camera camera;
+    camera.position = {0, 2, 0};
+    camera.up = {0, 0, -1};
+    const auto sumOf = [&](double bias) {
+        const Image image = visibilityOf(Limits::curb(0.1f, static_cast<float>(h)), camera,
+                                         exact("alchemy_cs562", {{"bias", bias}}), 64, 64);
+        double sum = 0;
+        for (int y = 16; y < 48; ++y)
+            for (int x = 20; x < 32; ++x) // of the floor
+                sum += 1 - static_cast<double>(image.at(x, y, 0));
+        return sum;
+    };
+    EXPECT_NEAR(sumOf(delta) / sumOf(0), 1 - delta * (2 - h) / h, 0.01);
+}
+
 // The darkest pixel, unfiltered and with default bias, of a tilted plane that fills the view; the
 // radius covers `pixels` at its middle, `distance` radii away.
 float darkestOfPlane(const char* id, float distance, float tilt, int size, int pixels) {

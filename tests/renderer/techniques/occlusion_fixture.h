@@ -22,14 +22,15 @@ inline Level whiteLight() {
 }
 
 // What a technique's passes leave: visibility, and the light to add where it has any. Top row
-// first.
+// first. `accumulated` frames were before this one (Frame::seed.y).
 inline Image occlusionOf(const Scene& scene, const Camera& camera, const Settings& settings,
                          int width, int height, std::uint64_t seed = 1,
                          Normals kind = Normals::smooth, const Level& level = whiteLight(),
-                         std::vector<glm::vec4> proxies = {}) {
+                         std::vector<glm::vec4> proxies = {}, int accumulated = 0) {
     const GpuScene gpuScene(scene);
     const int guard = guardPixels(settings, height);
-    const Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
+    Frame frame = makeFrame(camera, width, height, gpuScene.bounds(), seed, {0, 0}, guard);
+    frame.seed.y = accumulated;
     const gl::UniformBuffer block = frameBuffer(frame);
     bindFrame(block);
     if (settings.technique().reads & rays)
@@ -39,7 +40,8 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
     const Lighting lighting(level, gpuScene, std::filesystem::path());
     const GBuffer gbuffer(fullWidth, fullHeight,
                           {true, lighting.readsNormals(), normalsFor(settings.technique(), kind)});
-    GBufferPass().draw(gpuScene, frame, gbuffer);
+    const GBufferPass gbufferPass;
+    gbufferPass.draw(gpuScene, frame, gbuffer);
     const LightBuffers light(fullWidth, fullHeight, lighting.hasDirect());
     lighting.draw(gbuffer, light);
     std::optional<ProxySpheres> fitted;
@@ -48,6 +50,7 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
             fitted.emplace(proxies.empty() ? proxySpheres(scene, 256) : proxies);
         return *fitted;
     };
+    const SceneOccluders occluders(scene);
     const std::shared_ptr<const Scene> geometry(std::shared_ptr<void>(), &scene); // not its own
     const FewRays traced(geometry);
     const SceneTriangles triangles(geometry);
@@ -57,7 +60,8 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
                            [&] {
                                return OcclusionInputs::Light{light, lighting};
                            },
-                           spheres, std::cref(triangles), std::cref(traced)});
+                           spheres, peelOf(gbufferPass, gpuScene), &occluders, std::cref(triangles),
+                           std::cref(traced)});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
@@ -76,9 +80,9 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
 
 // Visibility alone: 1 channel.
 inline Image visibilityOf(const Scene& scene, const Camera& camera, const Settings& settings,
-                          int width, int height, std::uint64_t seed = 1,
-                          Normals kind = Normals::smooth) {
-    Image image = occlusionOf(scene, camera, settings, width, height, seed, kind);
+                          int width, int height, std::uint64_t seed = 1, int accumulated = 0) {
+    Image image = occlusionOf(scene, camera, settings, width, height, seed, Normals::smooth,
+                              whiteLight(), {}, accumulated);
     const auto channels = static_cast<std::size_t>(image.channels);
     for (std::size_t i = 0; i < image.pixels.size() / channels; ++i)
         image.pixels[i] = image.pixels[i * channels];

@@ -36,7 +36,7 @@ const Place presetPlace{"study.toml", 8, 3, "techniques.mine.preset"};
 TEST(SettingsTest, PresetsComeBeforeTheScenesRadiusAndExplicitSettings) {
     const Settings settings = settingsOf(
         {"mine", "gtao", {{"steps", 7, place}}, {}, PresetName{"ultra", presetPlace}}, 0.25);
-    EXPECT_EQ(settings["slices"], 9);
+    EXPECT_EQ(settings["slices"], 3);
     EXPECT_EQ(settings["steps"], 7);
     EXPECT_EQ(settings["radius"], 0.25f);
 }

@@ -46,6 +46,8 @@ double meanOf(const Image& image) {
 
 // Whole-number settings stay affordable.
 double affordable(const Parameter& parameter, float value) {
+    if (parameter.name == "accumulate")
+        return std::min(value, 4.0f); // as many frames
     return parameter.unit == Unit::count ? std::min(value, 64.0f) : value;
 }
 
