@@ -38,6 +38,7 @@ constexpr Parameter rtaoParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
+    accumulate,
 };
 
 // shaders/ray_filter.glsl reads 3 x 3 pixels.
