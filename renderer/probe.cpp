@@ -12,6 +12,23 @@ Level whiteLight() {
     return level;
 }
 
+// What decides where a ray is blocked: triangles, and the pictures in which masked materials have
+// their holes.
+Scene geometryOf(const Scene& scene) {
+    Scene result;
+    result.vertices = scene.vertices;
+    result.indices = scene.indices;
+    result.meshes = scene.meshes;
+    result.materials = scene.materials;
+    result.textures.resize(scene.textures.size());
+    for (const Material& material : scene.materials)
+        if (const TextureUse& use = material.baseColourTexture;
+            material.alphaCutoff > 0 && use.exists())
+            result.textures[static_cast<std::size_t>(use.texture)] =
+                scene.textures[static_cast<std::size_t>(use.texture)];
+    return result;
+}
+
 // Empty pixels, which hold `empty`, stay so.
 void store(const Probe::StoredDepth& storedDepth, float empty, const GBuffer& gbuffer) {
     const int width = gbuffer.target().width(), height = gbuffer.target().height();
@@ -32,7 +49,10 @@ struct Probe::Sight {
 };
 
 Subject::Subject(const Scene& scene)
-    : spheres_(scene), occluders_(scene), scene_(scene),
+    : Subject(scene, std::make_shared<const Scene>(geometryOf(scene))) {}
+
+Subject::Subject(const Scene& scene, std::shared_ptr<const Scene> geometry)
+    : spheres_(geometry), occluders_(scene), triangles_(geometry), traced_(geometry), scene_(scene),
       lighting_(whiteLight(), scene_, std::filesystem::path()) {}
 
 Probe::Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,
@@ -90,7 +110,8 @@ const gl::Texture& Probe::run(const Settings& settings, const OcclusionPasses& p
     };
     bindFrame(seen.frameBlock);
     return passes.next({seen.gbuffer, seen.frame, light, std::cref(subject_.spheres()),
-                        subject_.peel(), &subject_.occluders()},
+                        subject_.peel(), &subject_.occluders(), std::cref(subject_.triangles()),
+                        std::cref(subject_.traced())},
                        issued);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "renderer/frame/surfaces.h"
+#include "renderer/reference/few_rays.h"
+#include "renderer/reference/triangle_tree.h"
 #include "renderer/techniques/occlusion_passes.h"
 
 #include <functional>
@@ -10,8 +12,8 @@
 
 namespace obscura {
 
-// A scene with all that techniques may read of it, whatever the camera; proxy spheres are fitted
-// when first asked for. Its light is constant and white, so that those which read light see only
+// A scene with all that techniques may read of it, whatever the camera; what few read is made when
+// first asked for. Its light is constant and white, so that those which read light see only
 // geometry.
 class Subject {
   public:
@@ -23,10 +25,17 @@ class Subject {
     const SceneSpheres& spheres() const { return spheres_; }
     Peel peel() const { return peelOf(pass_, scene_); }
     const SceneOccluders& occluders() const { return occluders_; }
+    const SceneTriangles& triangles() const { return triangles_; }
+    const FewRays& traced() const { return traced_; }
 
   private:
+    // `geometry`: what of a scene is kept, without the textures that are on the GPU.
+    Subject(const Scene& scene, std::shared_ptr<const Scene> geometry);
+
     SceneSpheres spheres_;
     SceneOccluders occluders_;
+    SceneTriangles triangles_;
+    FewRays traced_;
     GpuScene scene_;
     GBufferPass pass_;
     Lighting lighting_;

@@ -129,7 +129,7 @@ std::string shaderSha256(const Settings& settings, const Level& level) {
     if (downscaleOf(settings) > 1)
         hash.add(Reduction::reduceShader().text() + Reduction::upsampleShader().text());
     hash.add(compositeShader().text());
-    if (settings.technique().reads & rays) // stands in for passes
+    if (settings.technique().reads & (rays | traced)) // stands in for passes
         hash.add(rayTracerVersion());
     return hash.hex();
 }
@@ -315,7 +315,10 @@ Rendering RecipeRenderer::render(const Recipe& recipe, bool layers) {
                                                return {light, lighting};
                                            },
                                            std::cref(stage_->subject->spheres()),
-                                           stage_->subject->peel(), &stage_->subject->occluders()});
+                                           stage_->subject->peel(), &stage_->subject->occluders(),
+
+                                           std::cref(stage_->subject->triangles()),
+                                           std::cref(stage_->subject->traced())});
         clock.mark(times_.occlusion);
         composite.draw(light, visibility, occlusion.sendsLight(), guard, gbuffer.emission());
         clock.mark(times_.composite);

@@ -119,9 +119,11 @@ bool PanePasses::run(Pane& pane, const ViewBuffers& buffers, const Subject& subj
                                      [&]() -> OcclusionInputs::Light {
                                          return {buffers.lightBuffers(), buffers.lighting()};
                                      },
-                                     [&]() -> const ProxySpheres& { return subject.spheres()(); },
+                                     std::cref(subject.spheres()),
                                      subject.peel(),
-                                     &subject.occluders()};
+                                     &subject.occluders(),
+                                     std::cref(subject.triangles()),
+                                     std::cref(subject.traced())};
         bindFrame(sight.block);
         if (std::exchange(pane.cold, false)) {
             pane.passes.next(inputs);

@@ -83,7 +83,7 @@ void addGrass(Works& works) {
     Random random(0, "builtin/garden/grass");
     const Noise noise("builtin/garden/grass");
     works.grass = lawn(
-        {-half.x, bed}, {half.x, terrace - 0.02F}, 600,
+        {-half.x, bed}, {half.x, terrace - 0.02F}, 1200,
         [&](glm::vec2 p) {
             for (const glm::vec2 step : steps)
                 if (glm::length(p - step) < stepRadius)

@@ -254,30 +254,36 @@ Shape tuft(int stalks, float height, float spread, Random& random) {
 
 namespace {
 
-// Two triangles and a tip, bent towards `lean`.
-void addBlade(Shape& shape, glm::vec3 foot, glm::vec3 lean, float height, float width,
-              glm::vec3 colour) {
-    // Its upper side is the front.
-    const glm::vec3 side = 0.5F * width * glm::normalize(glm::vec3(-lean.z, 0, lean.x));
-    const glm::vec3 middle = foot + height * (glm::vec3(0, 0.6F, 0) + 0.4F * lean);
-    const glm::vec3 tip = foot + height * (glm::vec3(0, 1 - 0.35F * glm::length(lean), 0) + lean);
+struct Blade {
+    glm::vec3 foot, lean; // lean: of its tip, in heights
+    float height, width;
+    glm::vec3 colour; // linear
+};
+
+// Two triangles and a tip, or one triangle for the short ones between; its upper side is the front.
+void addBlade(Shape& shape, const Blade& blade, bool bent) {
+    const glm::vec3 lean = blade.lean, foot = blade.foot;
+    const glm::vec3 side = 0.5F * blade.width * glm::normalize(glm::vec3(-lean.z, 0, lean.x));
+    const glm::vec3 middle = foot + blade.height * (glm::vec3(0, 0.6F, 0) + 0.4F * lean);
+    const glm::vec3 tip =
+        foot + blade.height * (glm::vec3(0, 1 - 0.35F * glm::length(lean), 0) + lean);
     const auto first = static_cast<std::uint32_t>(shape.vertices.size());
     const auto put = [&](glm::vec3 p, glm::vec3 up, float light) {
-        shape.vertices.push_back({p,
-                                  glm::normalize(glm::cross(side, up)),
-                                  {},
-                                  {p.x, p.z},
-                                  {},
-                                  glm::vec4(light * colour, 1)});
+        const glm::vec3 normal = glm::normalize(glm::cross(side, up));
+        shape.vertices.push_back(
+            {p, normal, {}, {p.x, p.z}, {}, glm::vec4(light * blade.colour, 1)});
     };
     put(foot - side, middle - foot, 0.65F);
     put(foot + side, middle - foot, 0.65F);
-    put(middle - 0.8F * side, tip - foot, 0.85F);
-    put(middle + 0.8F * side, tip - foot, 0.85F);
-    put(tip, tip - middle, 1.15F);
-    shape.addTriangle(first, first + 1, first + 3);
-    shape.addTriangle(first, first + 3, first + 2);
-    shape.addTriangle(first + 2, first + 3, first + 4);
+    if (bent) {
+        put(middle - 0.8F * side, tip - foot, 0.85F);
+        put(middle + 0.8F * side, tip - foot, 0.85F);
+        shape.addTriangle(first, first + 1, first + 3);
+        shape.addTriangle(first, first + 3, first + 2);
+    }
+    put(tip, tip - (bent ? middle : foot), 1.15F);
+    const std::uint32_t last = first + (bent ? 4 : 2);
+    shape.addTriangle(last - 2, last - 1, last);
 }
 
 } // namespace
@@ -294,10 +300,16 @@ Shape lawn(glm::vec2 low, glm::vec2 high, int bladesPerSquareMetre,
                     lean = between(random, 0.1, 0.6);
         const glm::vec3 colour = glm::mix(glm::vec3(0.13F, 0.24F, 0.04F),
                                           glm::vec3(0.34F, 0.42F, 0.12F), between(random, 0, 1));
+        const float width = between(random, 0.004, 0.008);
+        const bool bent = i % 4 == 0;
         if (height > 0.005F)
-            addBlade(shape, {p.x, -0.004F, p.y},
-                     lean * glm::vec3(std::sin(turn), 0, std::cos(turn)), height,
-                     between(random, 0.005, 0.010), colour);
+            addBlade(shape,
+                     {{p.x, -0.004F, p.y},
+                      lean * glm::vec3(std::sin(turn), 0, std::cos(turn)),
+                      (bent ? 1.0F : 0.9F) * height,
+                      width,
+                      colour},
+                     bent);
     }
     return shape;
 }

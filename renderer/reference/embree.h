@@ -24,14 +24,18 @@ using EmbreeGeometry = std::unique_ptr<std::remove_pointer_t<RTCGeometry>, Embre
 
 // findAny() sets a ray's tfar to -infinity where it meets anything; findNearest() sets it to the
 // distance of the nearest thing met. `valid` has -1 for the lanes that count, 0 for others. Embree
-// is told that the rays of a packet are coherent.
+// is told whether the rays of a packet run through the same boxes.
+enum class Coherence { packet, none };
+
 #if OBSCURA_EMBREE >= 4
 inline void findAny(RTCScene scene, RTCRay& ray) { rtcOccluded1(scene, &ray, nullptr); }
 
-inline void findAny(RTCScene scene, const int* valid, RTCRay16& rays) {
+inline void findAny(RTCScene scene, const int* valid, RTCRay16& rays,
+                    Coherence coherence = Coherence::packet) {
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+    arguments.flags = coherence == Coherence::packet ? RTC_RAY_QUERY_FLAG_COHERENT
+                                                     : RTC_RAY_QUERY_FLAG_INCOHERENT;
     rtcOccluded16(valid, scene, &rays, &arguments);
 }
 
@@ -56,8 +60,11 @@ inline void findAny(RTCScene scene, RTCRay& ray) {
     rtcOccluded1(scene, &context, &ray);
 }
 
-inline void findAny(RTCScene scene, const int* valid, RTCRay16& rays) {
-    RTCIntersectContext context = embreeContext(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+inline void findAny(RTCScene scene, const int* valid, RTCRay16& rays,
+                    Coherence coherence = Coherence::packet) {
+    RTCIntersectContext context =
+        embreeContext(coherence == Coherence::packet ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                                     : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     rtcOccluded16(valid, scene, &context, &rays);
 }
 

@@ -199,7 +199,8 @@ void RayScene::State::attach(const std::vector<std::uint32_t>& indices, Cutout* 
     rtcAttachGeometry(scene.get(), geometry.get());
 }
 
-RayScene::RayScene(const Scene& scene, Sides sides) : state_(std::make_unique<State>()) {
+RayScene::RayScene(const Scene& scene, Sides sides, bool robust)
+    : state_(std::make_unique<State>()) {
     State& state = *state_;
     state.device.reset(rtcNewDevice(nullptr));
     if (!state.device)
@@ -209,7 +210,7 @@ RayScene::RayScene(const Scene& scene, Sides sides) : state_(std::make_unique<St
     rtcSetDeviceErrorFunction(state.device.get(), Complaints::add, &state.complaints);
     state.sort(scene, sides);
     state.scene.reset(rtcNewScene(state.device.get()));
-    rtcSetSceneFlags(state.scene.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(state.scene.get(), robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
     rtcSetSceneBuildQuality(state.scene.get(), sides == Sides::both ? RTC_BUILD_QUALITY_HIGH
                                                                     : RTC_BUILD_QUALITY_MEDIUM);
     state.attach(state.opaque, nullptr);

@@ -96,54 +96,90 @@ void mark(Parts& grid, const Occluder& triangle, glm::vec3 origin, float part) {
         }
 }
 
-// Of the sixteen lines through a cube along each axis, those that meet a part.
-void setOpacity(std::uint8_t* opacity, std::uint64_t bits) {
-    const auto share = [](std::uint64_t lines) {
-        return static_cast<std::uint8_t>((std::popcount(lines) * 255 + 8) / 16);
-    };
-    opacity[0] = share((bits | bits >> 1 | bits >> 2 | bits >> 3) & 0x1111111111111111u);
-    opacity[1] = share((bits | bits >> 4 | bits >> 8 | bits >> 12) & 0x000f000f000f000fu);
-    opacity[2] = share((bits | bits >> 16 | bits >> 32 | bits >> 48) & 0xffffu);
+// For each cube, or run of 2, 4, 8 or 16 along `axis`, which of the sixteen lines along that axis
+// through it meet a part.
+struct Lines {
+    int axis;
+    glm::ivec3 size; // runs along `axis`, cubes along the others
+    std::vector<std::uint16_t> met;
+};
+
+std::uint16_t linesOf(std::uint64_t bits, int axis) {
+    if (axis == 0) { // bits 0, 4, 8 ... 60 are left, and moved together
+        bits = (bits | bits >> 1 | bits >> 2 | bits >> 3) & 0x1111111111111111u;
+        bits = (bits | bits >> 3) & 0x0303030303030303u;
+        bits = (bits | bits >> 6) & 0x000f000f000f000fu;
+        bits = (bits | bits >> 12) & 0x000000ff000000ffu;
+        bits |= bits >> 24;
+    } else if (axis == 1) { // bits 0 to 3 of each 16
+        bits = (bits | bits >> 4 | bits >> 8 | bits >> 12) & 0x000f000f000f000fu;
+        bits = (bits | bits >> 12) & 0x000000ff000000ffu;
+        bits |= bits >> 24;
+    } else {
+        bits |= bits >> 16 | bits >> 32 | bits >> 48;
+    }
+    return static_cast<std::uint16_t>(bits & 0xffffu);
 }
 
-VoxelGrid::Level firstLevel(const Parts& grid, glm::ivec3 size) {
-    VoxelGrid::Level level{size, {}};
-    level.opacity.resize(at(size, 0, 0, size.z) * 4);
+Lines linesThrough(const Parts& grid, glm::ivec3 size, int axis) {
+    Lines lines{axis, size, std::vector<std::uint16_t>(at(size, 0, 0, size.z))};
     forEachInParallel(size.z, [&](int z) {
         for (std::size_t i = at(size, 0, 0, z); i < at(size, 0, 0, z + 1); ++i)
             if (const std::uint64_t bits = grid[i])
-                setOpacity(&level.opacity[4 * i], bits);
+                lines.met[i] = linesOf(bits, axis);
     });
-    return level;
+    return lines;
 }
 
-VoxelGrid::Level coarser(const VoxelGrid::Level& fine) {
-    VoxelGrid::Level level{fine.size / 2, {}};
-    level.opacity.resize(at(level.size, 0, 0, level.size.z) * 4);
-    const auto composite = [&](glm::ivec3 low, int axis) {
-        int sum = 0; // of 255 x 255 x four lines
-        for (int line = 0; line < 4; ++line) {
-            int open = 1;
-            for (int along = 0; along < 2; ++along) {
-                glm::ivec3 place = low;
-                place[axis] += along;
-                place[(axis + 1) % 3] += line & 1;
-                place[(axis + 2) % 3] += line >> 1;
-                open *= 255 - fine.opacity[4 * at(fine.size, place.x, place.y, place.z) +
-                                           static_cast<std::size_t>(axis)];
+Lines runsOfTwice(const Lines& lines) {
+    glm::ivec3 size = lines.size;
+    size[lines.axis] /= 2;
+    Lines longer{lines.axis, size, std::vector<std::uint16_t>(at(size, 0, 0, size.z))};
+    const glm::ivec3 fine = lines.size;
+    const std::size_t next = lines.axis == 0   ? 1
+                             : lines.axis == 1 ? at(fine, 0, 1, 0)
+                                               : at(fine, 0, 0, 1);
+    forEachInParallel(size.z, [&](int z) {
+        for (int y = 0; y < size.y; ++y)
+            for (int x = 0; x < size.x; ++x) {
+                glm::ivec3 first(x, y, z);
+                first[lines.axis] *= 2;
+                const std::size_t i = at(fine, first.x, first.y, first.z);
+                longer.met[at(size, x, y, z)] =
+                    static_cast<std::uint16_t>(lines.met[i] | lines.met[i + next]);
             }
-            sum += 255 * 255 - open;
-        }
-        return static_cast<std::uint8_t>((sum + 2 * 255) / (4 * 255));
-    };
-    forEachInParallel(level.size.z, [&](int z) {
-        for (int y = 0; y < level.size.y; ++y)
-            for (int x = 0; x < level.size.x; ++x)
-                for (int axis = 0; axis < 3; ++axis)
-                    level.opacity[4 * at(level.size, x, y, z) + static_cast<std::size_t>(axis)] =
-                        composite(2 * glm::ivec3(x, y, z), axis);
     });
-    return level;
+    return longer;
+}
+
+// Of a cube, by the runs of which it consists, `side` along each of the other axes.
+std::uint8_t opacity(const Lines& runs, glm::ivec3 cube, int side) {
+    glm::ivec3 low = cube * side, high = low + side;
+    low[runs.axis] = cube[runs.axis];
+    high[runs.axis] = low[runs.axis] + 1;
+    int met = 0;
+    for (int z = low.z; z < high.z; ++z)
+        for (int y = low.y; y < high.y; ++y)
+            for (int x = low.x; x < high.x; ++x)
+                met += std::popcount(runs.met[at(runs.size, x, y, z)]);
+    const int all = 16 * side * side;
+    return static_cast<std::uint8_t>((met * 255 + all / 2) / all);
+}
+
+void addOpacities(VoxelGrid& grid, Lines lines) {
+    int side = 1;
+    for (VoxelGrid::Level& level : grid.levels) {
+        if (side > 1)
+            lines = runsOfTwice(lines);
+        forEachInParallel(level.size.z, [&](int z) {
+            for (int y = 0; y < level.size.y; ++y)
+                for (int x = 0; x < level.size.x; ++x)
+                    level.opacity[4 * at(level.size, x, y, z) +
+                                  static_cast<std::size_t>(lines.axis)] =
+                        opacity(lines, {x, y, z}, side);
+        });
+        side *= 2;
+    }
 }
 
 } // namespace
@@ -173,9 +209,10 @@ VoxelGrid voxelise(std::span<const Occluder> triangles, float side) {
     forEachInParallel(triangles.size(), [&](std::size_t i) {
         mark(marked, triangles[i], grid.origin, grid.side / parts);
     });
-    grid.levels.push_back(firstLevel(marked, size));
-    while (grid.levels.size() < levelCount)
-        grid.levels.push_back(coarser(grid.levels.back()));
+    for (int level = 0; level < levelCount; ++level, size /= 2)
+        grid.levels.push_back({size, std::vector<std::uint8_t>(4 * at(size, 0, 0, size.z))});
+    for (int axis = 0; axis < 3; ++axis)
+        addOpacities(grid, linesThrough(marked, grid.levels[0].size, axis));
     return grid;
 }
 

@@ -21,13 +21,11 @@ struct VoxelGrid {
 };
 
 // Surfaces voxelised conservatively, as by Schwarz and Seidel 2010, "Fast parallel surface and
-// solid voxelization on GPUs": every one of the 4 x 4 x 4 parts of a cube that a triangle's box in
-// the two axes that it faces least, and its slope in the third, cannot be shown to miss counts as
-// met. Where a triangle is covered in part, that share of the parts counts, drawn by their places.
-// The levels above are composited from two cubes along the line, of the mean of four lines (Crassin
-// et al. 2011, section 4.2, for three axes in the place of six directions, which opacity alone
-// cannot tell apart). A grid of more than `mostVoxels` has its side doubled until it has not. The
-// same triangles give the same grid.
+// solid voxelization on GPUs": of the 4 x 4 x 4 parts of a cube, each counts as met unless the
+// triangle's outline, seen along the axis that it faces most, or its plane's depth along that axis
+// clears it. Where a triangle is covered in part, that share of its parts counts, drawn by their
+// places. A grid of more than `mostVoxels` has its side doubled until it has not. The same
+// triangles give the same grid.
 constexpr std::int64_t mostVoxels = std::int64_t{1} << 25;
 VoxelGrid voxelise(std::span<const Occluder> triangles, float side);
 

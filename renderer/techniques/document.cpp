@@ -18,7 +18,7 @@ std::string readsOf(const Technique& technique) {
     add(normals, "normals");
     add(light, "light and albedo");
     add(spheres, "spheres fitted to the scene's meshes");
-    add(rays | triangles, "the scene's triangles");
+    add(rays | traced | tree | triangles, "the scene's triangles");
     add(voxels, "voxels of the scene");
     add(layers, "further layers of depth");
     return text;

@@ -14,11 +14,14 @@ namespace {
 
 // Binding points of a pass's shader. Blocks; the frame is 0.
 constexpr int settingsBinding = 1, pointsBinding = 2, environmentBinding = 3, spheresBinding = 4,
-              occludersBinding = 5, voxelsBinding = 6;
+              voxelsBinding = 6;
+// Storage blocks have bindings of their own.
+constexpr int treeBinding = 5; // three of them
+constexpr int occludersBinding = 3;
 // Samplers; later results follow.
 constexpr int depthUnit = 0, normalUnit = 1, albedoUnit = 2, ambientUnit = 3, directUnit = 4,
-              resultUnit = 5, voxelsUnit = 20; // results, at most eleven, end below the latter
-constexpr int group = 128;                     // compute shaders' pixels that share memory
+              resultUnit = 5, voxelsUnit = 20, tracedUnit = 21; // results end below these
+constexpr int group = 128; // compute shaders' pixels that share memory
 
 bool enabled(const Settings& settings, const Pass& pass) {
     return pass.enabledBy.empty() || settings[pass.enabledBy] >= static_cast<float>(pass.from);
@@ -111,6 +114,12 @@ void declareBlocks(gl::ShaderText& text, const Settings& settings) {
         block += fmt::format("layout(std140, binding = {}) uniform VoxelBlock {{ vec4 voxelPlace, "
                              "voxelScale; }};\n",
                              voxelsBinding);
+    if (settings.technique().reads & tree)
+        block += fmt::format(
+            "layout(std430, binding = {}) readonly buffer NodeBlock {{ uvec4 nodes[]; }};\n"
+            "layout(std430, binding = {}) readonly buffer TriangleBlock {{ vec4 triangles[]; }};\n"
+            "layout(std430, binding = {}) readonly buffer MaskBlock {{ uint masks[]; }};\n",
+            treeBinding, treeBinding + 1, treeBinding + 2);
     text.addFile(shaderFolder(), "frame.h");
     text.add(block, "(generated declarations)");
 }
@@ -139,6 +148,8 @@ std::string declareInputs(const Settings& settings) {
                                 layerUnit(technique, further), further == 0 ? "second" : "third");
     if (technique.reads & voxels)
         text += fmt::format("layout(binding = {}) uniform sampler3D voxelOpacity;\n", voxelsUnit);
+    if (technique.reads & traced)
+        text += fmt::format("layout(binding = {}) uniform sampler2D tracedBuffer;\n", tracedUnit);
     if (technique.points)
         text += declarePoints(technique.points(settings));
     // The results of all passes are declared, because the file's other functions must compile too.
@@ -276,6 +287,8 @@ double occlusionBytes(const Settings& settings, int width, int height) {
             bytes += 1.0 * std::max(across >> level, 1) * std::max(down >> level, 1) *
                      pass->layers * gl::bytesOf(formatOf(settings, *pass));
     }
+    if (settings.technique().reads & traced)
+        bytes += 1.0 * width * height * gl::bytesOf(gl::Format::r32f);
     if (factor > 1) {
         const double normal =
             settings.technique().reads & normals ? bytesOf(gl::Format::rgba16f) : 0;
@@ -385,6 +398,11 @@ void OcclusionPasses::drawLayers(const OcclusionInputs& inputs) const {
 void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     const unsigned reads = settings_.technique().reads;
     const auto lit = reads & light ? std::optional(inputs.light()) : std::nullopt;
+    if (reads & traced)
+        gl::bindTexture(tracedUnit,
+                        inputs.traced(inputs.gbuffer, inputs.frame,
+                                      settings_["radius"] * settings_["radiusMultiplier"],
+                                      static_cast<int>(settings_["rays"])));
     block_.bind(settingsBinding);
     if (points_)
         points_->bind(pointsBinding);
@@ -411,6 +429,8 @@ void OcclusionPasses::bindInputs(const OcclusionInputs& inputs) const {
     if (reads & voxels)
         inputs.occluders->voxels(settings_["radius"] / settings_["voxels"])
             .bind(voxelsUnit, voxelsBinding);
+    if (reads & tree)
+        inputs.tree().bind(treeBinding);
 }
 
 void drawPass(const Pass& pass, const gl::Program& program, const gl::SlicedTarget& target,

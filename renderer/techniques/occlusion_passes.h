@@ -1,6 +1,7 @@
 #pragma once
 
 #include "renderer/frame/light.h"
+#include "renderer/frame/triangle_buffers.h"
 #include "renderer/techniques/accumulation.h"
 #include "renderer/techniques/further_layers.h"
 #include "renderer/techniques/proxy_spheres.h"
@@ -59,6 +60,11 @@ struct OcclusionInputs {
     std::function<const ProxySpheres&()> spheres = {};
     Peel peel = {};
     const SceneOccluders* occluders = nullptr; // makes of them what is asked for, then
+    std::function<const TriangleBuffers&()> tree = {};
+    // Visibility within a radius (metres) by so many rays a pixel, in red, as large as the
+    // G-buffer; good until the next call (renderer/reference/few_rays.h).
+    std::function<const gl::Texture&(const GBuffer&, const Frame&, float radius, int rays)> traced =
+        {};
 };
 
 // Called after each pass has been issued, for timing and counting. The textures that the pass read

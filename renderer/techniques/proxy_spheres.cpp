@@ -17,7 +17,7 @@ ProxySpheres::ProxySpheres(std::span<const glm::vec4> spheres)
 
 const ProxySpheres& SceneSpheres::operator()() const {
     if (!spheres_)
-        spheres_.emplace(proxySpheres(triangles_));
+        spheres_.emplace(proxySpheres(*scene_));
     return *spheres_;
 }
 

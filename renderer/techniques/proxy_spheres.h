@@ -5,6 +5,7 @@
 
 #include <glm/glm.hpp>
 
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -22,18 +23,14 @@ class ProxySpheres {
     gl::UniformBuffer buffer_;
 };
 
-// Those of a scene, fitted when they are first asked for (renderer/scene/proxies.h). Of the scene
-// it keeps the triangles alone.
+// Those of a scene, fitted when they are first asked for (renderer/scene/proxies.h).
 class SceneSpheres {
   public:
-    explicit SceneSpheres(const Scene& scene) {
-        triangles_.vertices = scene.vertices;
-        triangles_.indices = scene.indices;
-    }
+    explicit SceneSpheres(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
     const ProxySpheres& operator()() const;
 
   private:
-    Scene triangles_;
+    std::shared_ptr<const Scene> scene_;
     mutable std::optional<ProxySpheres> spheres_;
 };
 

@@ -85,7 +85,7 @@ struct Pass {
     std::string_view file = {}; // of the shader folder; without it ao/<id of technique>.glsl
     // The most that one pixel of the target makes: at level 0, and at each next level where the
     // pass has those. In rows and columns, its share of what a whole group makes away from the
-    // border; as a splat, for one sphere. renderer/techniques/fetches.h counts them.
+    // border; as a splat or a box, for one of them. renderer/techniques/fetches.h counts them.
     Fetches fetches = nullptr;
     Fetches levelFetches = nullptr;
 };
@@ -99,8 +99,11 @@ enum Reads : unsigned {
     rays = 8,       // the triangles themselves: no passes, the reference gives visibility
     layers = 16,    // secondDepth, thirdDepth: of depth, where the count `layers` asks for them
     triangles = 32, // occluders (renderer/scene/occluders.h)
-    voxels = 64     // voxelOpacity, voxelPlace, voxelScale: sides are `radius`, before it is
+    voxels = 64,    // voxelOpacity, voxelPlace, voxelScale: sides are `radius`, before it is
                     // multiplied, / `voxels` (renderer/scene/voxels.h)
+    traced = 128,   // tracedBuffer: visibility by `rays` rays a pixel
+                    // (renderer/reference/few_rays.h)
+    tree = 256      // the triangles in a tree (renderer/frame/triangle_buffers.h): tree.glsl
 };
 
 // Settings that a technique's authors offer together under one name ("high"). The radius is never
@@ -210,8 +213,10 @@ constexpr bool wellFormed(const Technique& technique) {
         if (!wellFormed(technique.presets[i], technique.parameters))
             return false;
     }
-    // Five samplers are inputs, further layers of depth two more, and a shader has sixteen.
-    const std::size_t inputs = technique.reads & layers ? 7 : 5;
+    // Five samplers are inputs, some techniques read more, and a shader has sixteen.
+    const unsigned reads = technique.reads;
+    const std::size_t inputs =
+        5u + (reads & layers ? 2u : 0u) + (reads & voxels ? 1u : 0u) + (reads & traced ? 1u : 0u);
     return technique.passes.size() + inputs <= 16 && !technique.id.empty() &&
            !technique.title.empty() && !technique.citation.empty();
 }

@@ -32,6 +32,7 @@ constexpr Technique table[] = {
     rows::horizon::multiScale,
     rows::gtao::gtao,
     rows::gtao::visibilityBitmask,
+    rows::gtao::gtVbao,
     rows::obscurance::alchemy,
     rows::obscurance::alchemyFormOne,
     rows::obscurance::alchemyCs562,
@@ -46,6 +47,8 @@ constexpr Technique table[] = {
     rows::objects::volumes,
     rows::objects::voxelAo,
     rows::traced::rayTraced,
+    rows::traced::rtao,
+    rows::traced::rtaoBvh,
 };
 static_assert(wellFormed(table));
 

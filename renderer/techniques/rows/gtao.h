@@ -133,6 +133,35 @@ constexpr Parameter bitmaskParameters[] = {
     downscale,
     accumulate};
 
+constexpr Parameter gtVbaoParameters[] = {
+    radius,
+    slices,
+    slicesSteps,
+    {"thickness", Unit::ratio,
+     "how far, in radii, every surface extends at least behind what is seen of it", 0.5f, 1e-3f,
+     1e6f, "ours: less makes too much of Sponza thin"},
+    {"surfaceSlope", Unit::ratio,
+     "change of depth, as a part of the distance between two taps, up to which they are of one "
+     "surface, which is as thick as it is wide",
+     2, 0, 100, "ours: between 1, best for a room's thin legs, and 4, best for the dragon"},
+    samplePower,
+    levelOffset,
+    guardBand(0, "XeGTAO and Therrien et al. 2023 have none"),
+    adaptive,
+    adaptiveRange,
+    denoise,
+    edgeDepth,
+    edgeAngle,
+    radiusMultiplier(),
+    intensity(),
+    power(),
+    downscale,
+    accumulate};
+
+inline double layersOf(const Settings& s) {
+    return s.has("layers") ? static_cast<double>(s["layers"]) : 1.0;
+}
+
 constexpr Pass depthLevelsPass{.name = "depths",
                                .format = Format::r32f,
                                .levels = 5,
@@ -145,7 +174,7 @@ constexpr Pass surveyPass{
     .enabledBy = "adaptive",
     .scale = 4,
     .work = Work::prepare,
-    .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"] * s["layers"]; }};
+    .fetches = [](const Settings& s) { return 2.0 + 2 * s["steps"] * layersOf(s); }};
 constexpr Pass countsPass{.name = "counts",
                           .format = Format::r16f,
                           .enabledBy = "adaptive",
@@ -155,7 +184,7 @@ constexpr Pass countsPass{.name = "counts",
 // Fetches depth and normal of the pixel and how many slices it gets, and the depths of each tap
 // along both sides of each slice.
 constexpr Fetches slicesTaps = [](const Settings& s) {
-    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"] * s["layers"];
+    return 2.0 + s["adaptive"] + 2 * s["slices"] * s["steps"] * layersOf(s);
 };
 constexpr Pass edgesPass{.name = "edges",
                          .format = Format::rgba8,
@@ -251,5 +280,13 @@ constexpr Technique visibilityBitmask{
     bitmaskParameters,
     bitmaskPasses,
     slicesPresets};
+constexpr Technique gtVbao{"gt_vbao",
+                           "GT-VBAO 2024, thick as wide",
+                           "Salm 2024, after Therrien et al. 2023; thickness after Ottosson 2025",
+                           normals,
+                           nullptr,
+                           gtVbaoParameters,
+                           bitmaskPasses,
+                           slicesPresets};
 
 } // namespace obscura::rows::gtao

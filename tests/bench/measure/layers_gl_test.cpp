@@ -10,11 +10,11 @@ namespace obscura {
 namespace {
 
 void addSheet(Scene& scene, float x0, float x1, float y) {
-    addQuad(scene,
-            {glm::vec3(x0, y, 1), glm::vec3(x1, y, 1), glm::vec3(x1, y, -1), glm::vec3(x0, y, -1)});
+    addQuad(scene, {glm::vec3(x0, y, 0.9f), glm::vec3(x1, y, 0.9f), glm::vec3(x1, y, -0.9f),
+                    glm::vec3(x0, y, -0.9f)});
 }
 
-// From straight above a floor of 2 m, which fills the image.
+// From straight above, 2 m across.
 Camera fromAbove() {
     Camera camera;
     camera.position = {0, 100, 0};

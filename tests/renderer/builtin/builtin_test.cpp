@@ -196,7 +196,7 @@ TEST(BuiltinSizes, RoomIsAsLargeAsARoomAndLightEnough) {
 
 TEST(BuiltinSizes, GardenIsAsLargeAsAGardenAndLightEnough) {
     const Bounds bounds = sceneNamed("garden").bounds();
-    EXPECT_NEAR(bounds.high.y, 5, 0.5); // the tree
+    EXPECT_NEAR(bounds.high.y, 5, 0.5);   // the tree
     EXPECT_NEAR(bounds.low.z, -4.5, 0.1); // the hedge beyond the lane
     EXPECT_LT(trianglesOf(sceneNamed("garden")), 250000U);
 }

@@ -48,7 +48,9 @@ class Room {
           frameBlock_(frameBuffer(frame_)),
           lighting_(whiteLight(), scene_, std::filesystem::path()),
           gbuffer_(width, height, {true, false, Normals::smooth}), light_(width, height, false),
-          spheres_(std::array{glm::vec4(0.3f, -0.5f, 0.2f, 0.3f)}) {
+          spheres_(std::array{glm::vec4(0.3f, -0.5f, 0.2f, 0.3f)}),
+          triangles_(std::make_shared<const Scene>(scene)),
+          traced_(std::make_shared<const Scene>(scene)) {
         bindFrame(frameBlock_);
         pass_.draw(scene_, frame_, gbuffer_);
         lighting_.draw(gbuffer_, light_);
@@ -63,7 +65,9 @@ class Room {
                 },
                 [this]() -> const ProxySpheres& { return spheres_; },
                 peelOf(pass_, scene_),
-                &occluders_};
+                &occluders_,
+                std::cref(triangles_),
+                std::cref(traced_)};
     }
     std::vector<FetchCount> count(const Settings& settings) const {
         return countFetches(settings, inputs(), width_, height_);
@@ -86,6 +90,8 @@ class Room {
     GBuffer gbuffer_;
     LightBuffers light_;
     ProxySpheres spheres_;
+    SceneTriangles triangles_;
+    FewRays traced_;
 };
 
 std::string spelt(const Settings& settings) {
@@ -154,6 +160,7 @@ TEST_F(GlTest, PassesFetchWhatTheyDeclareWithOtherSettings) {
         {"gtao", {{"adaptive", 1}, {"layers", 3}}},
         {"visibility_bitmask", {{"denoise", 3}, {"slices", 2}, {"layers", 2}}},
         {"visibility_bitmask", {{"adaptive", 1}, {"slices", 2}}},
+        {"gt_vbao", {{"adaptive", 1}, {"steps", 3}}},
         {"alchemy", {{"samples", 7}, {"blurRadius", 32}}},
         {"sao", {{"samples", 24}, {"mipOffset", 0}}},
         {"volumetric_obscurance", {{"samples", 4}, {"clipByNormal", 0}}},
@@ -167,6 +174,7 @@ TEST_F(GlTest, PassesFetchWhatTheyDeclareWithOtherSettings) {
          {{"blur", 2}, {"blurSize", 6}, {"luminanceSensitivity", 2}, {"colourBleeding", 3}}},
         {"ssdo", {{"blur", 0}, {"samples", 8}}},
         {"ssdo", {{"bounce", 0}}},
+        {"rtao", {{"denoise", 0}}},
         {"proxy_spheres", {{"detail", 0}}},
         {"proxy_spheres", {{"distant", 0}, {"blur", 0}, {"samples", 6}}},
     };

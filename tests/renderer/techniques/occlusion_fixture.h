@@ -1,7 +1,9 @@
 #pragma once
 
 #include "image/image.h"
+#include "renderer/reference/few_rays.h"
 #include "renderer/reference/traced.h"
+#include "renderer/reference/triangle_tree.h"
 #include "renderer/scene/proxies.h"
 #include "renderer/scene/quads.h"
 #include "renderer/techniques/occlusion_passes.h"
@@ -49,13 +51,17 @@ inline Image occlusionOf(const Scene& scene, const Camera& camera, const Setting
         return *fitted;
     };
     const SceneOccluders occluders(scene);
+    const std::shared_ptr<const Scene> geometry(std::shared_ptr<void>(), &scene); // not its own
+    const FewRays traced(geometry);
+    const SceneTriangles triangles(geometry);
     const OcclusionPasses passes(settings, fullWidth, fullHeight);
     const gl::Texture& texture =
         passes.visibility({gbuffer, frame,
                            [&] {
                                return OcclusionInputs::Light{light, lighting};
                            },
-                           spheres, peelOf(gbufferPass, gpuScene), &occluders});
+                           spheres, peelOf(gbufferPass, gpuScene), &occluders, std::cref(triangles),
+                           std::cref(traced)});
     const int channels = passes.sendsLight() ? 4 : 1;
     Image image{width, height, channels, {}};
     if (settings.technique().passes.empty()) {
