@@ -122,7 +122,9 @@ TEST_F(Temporal, AccumulationSteadiesAStillCamera) {
     EXPECT_GT(accumulated, alone / 12); // noise cycles
 }
 
-TEST_F(Temporal, GhostsShowWhereAccumulationIsWrong) {
+// On the orbit next to nothing changes, so that noise alone tells the picture from a still one;
+// after the cut history comes from twice as far.
+TEST_F(Temporal, OnlyWhatAccumulatesHasGhosts) {
     TemporalStudy both = study({"orbit", "cut"});
     Settings settings(technique("alchemy"));
     settings.set("blur", 0);
@@ -131,7 +133,6 @@ TEST_F(Temporal, GhostsShowWhereAccumulationIsWrong) {
     both.configurations.push_back({"accumulated", settings});
     both.effort.frames = 6;
     const auto cells = measureTemporal(both);
-    EXPECT_LT(headlineOf(cells, "accumulated", "orbit"), headlineOf(cells, "alone", "orbit"));
     int ghosts = 0;
     for (const StabilityCell& cell : cells) {
         if (!cell.measure.starts_with("ghosts"))
