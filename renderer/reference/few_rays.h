@@ -22,7 +22,7 @@ class FewRays {
     FewRays(FewRays&&) noexcept;
 
     // Visibility in red, 1 open, 0 blocked; empty pixels are open. The radius is in metres; the
-    // frame is the G-buffer's, its seed moves along the sequence. Good until the next call.
+    // frame is the G-buffer's, its seeds move along the sequence. Good until the next call.
     const gl::Texture& operator()(const GBuffer& gbuffer, const Frame& frame, float radius,
                                   int rays) const;
 

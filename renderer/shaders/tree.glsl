@@ -67,6 +67,8 @@ bool isBlocked(vec3 origin, vec3 direction, float radius) {
     int end = nodes.length() / 2, node = 0;
     while (node < end) {
         uvec4 low = nodes[2 * node], high = nodes[2 * node + 1];
+        if (low.w == 0u) // llvmpipe gives zeros to lanes that cover no pixel; they must end too
+            return false;
         vec3 a = uintBitsToFloat(low.xyz) * inverse - start,
              b = uintBitsToFloat(high.xyz) * inverse - start;
         vec3 entry = min(a, b), leaving = max(a, b);

@@ -29,7 +29,7 @@ vec4 gather(ivec2 pixel) {
     vec3 origin = (frame.worldFromView * vec4(seen + offset * (normal + view), 1.0)).xyz;
     normal = mat3(frame.worldFromView) * normal;
     uint rays = uint(settings.rays);
-    uint first = (hilbertIndex(pixel) + 288u * uint(frame.seed.x)) * rays;
+    uint first = (hilbertIndex(pixel) + 288u * uint(frame.seed.x + frame.seed.y)) * rays;
     float open = 0.0;
     for (uint i = 0u; i < rays; ++i) {
         vec3 ray = normal + spherePoint(first + i);

@@ -31,13 +31,14 @@ constexpr Technique rayTraced{
 
 constexpr Parameter rtaoParameters[] = {
     radius,
-    {"rays", Unit::count, "rays per pixel", 4, 1, 256,
+    {"rays", Unit::count, "rays per pixel", 4, 1, 64,
      "ours: beyond 16, ray_traced is the better choice"},
     {"denoise", Unit::flag,
      "two passes of an edge-aware filter that is guided by the rays' variance", 1, 0, 1, "ours"},
     radiusMultiplier(),
     intensity(),
     power(),
+    accumulate,
 };
 
 // shaders/ray_filter.glsl reads 3 x 3 pixels.

@@ -16,9 +16,13 @@ class RaysLimits : public Limits, public testing::WithParamInterface<std::string
         return settings;
     }
     static Settings within(double radius) {
-        Settings settings = few(256);
+        Settings settings = few(64);
         settings.set("radius", radius);
         return settings;
+    }
+    static double occlusion(const Scene& scene, const Settings& settings) {
+        return centre(
+            scene, settings, [](double v) { return 1 - v; }, 3);
     }
     // A floor, and an upright wall at x = `distance`.
     static Scene wall(float distance, float high) {
@@ -32,15 +36,15 @@ class RaysLimits : public Limits, public testing::WithParamInterface<std::string
 TEST_P(RaysLimits, BesideAWallThatIsHigherThanTheRadius) {
     const std::pair<float, double> cases[] = {
         {0.1f, 0.43644}, {0.25f, 0.34252}, {0.5f, 0.19550}, {0.75f, 0.07215}};
-    for (const auto& [distance, occlusion] : cases)
-        EXPECT_NEAR(1 - centre(wall(distance, 5), few(256)), occlusion, 0.003) << distance;
+    for (const auto& [distance, expected] : cases)
+        EXPECT_NEAR(occlusion(wall(distance, 5), few(64)), expected, 0.003) << distance;
 }
 
 // The wall is outside of the picture, which is 2.6 m wide.
 TEST_P(RaysLimits, AWallThatNobodySees) {
     const std::pair<float, double> cases[] = {{1, 0.05279}, {2, 0.14645}, {4, 0.27639}};
-    for (const auto& [high, occlusion] : cases)
-        EXPECT_NEAR(1 - centre(wall(2, high), within(1000)), occlusion, 0.004) << high;
+    for (const auto& [high, expected] : cases)
+        EXPECT_NEAR(occlusion(wall(2, high), within(1000)), expected, 0.004) << high;
 }
 
 TEST_P(RaysLimits, OnTheFloorOfAWell) {
@@ -55,8 +59,8 @@ TEST_P(RaysLimits, OnTheFloorOfAWell) {
         addQuad(scene, {at(i, 0), at(i + 1, 0), at(i + 1, 2), at(i, 2)});
     }
     // The picture's column is up to 0.04 m off the centre.
-    EXPECT_NEAR(1 - centre(scene, within(100)), 0.8, 0.003);
-    EXPECT_NEAR(1 - centre(scene, within(1.5)), 1 - 1 / 2.25, 0.003);
+    EXPECT_NEAR(occlusion(scene, within(100)), 0.8, 0.006);
+    EXPECT_NEAR(occlusion(scene, within(1.5)), 1 - 1 / 2.25, 0.006);
 }
 
 // What a normal that is tilted by an angle t sends below the face is blocked: (1 - cos t) / 2.
@@ -67,7 +71,7 @@ TEST_P(RaysLimits, ATiltedNormalOnAPlane) {
         addStrip(scene, -5, 0, 5, 0);
         for (Vertex& vertex : scene.vertices)
             vertex.normal = {std::sin(angle), std::cos(angle), 0};
-        EXPECT_NEAR(1 - centre(scene, few(256)), (1 - std::cos(angle)) / 2, 0.003) << degrees;
+        EXPECT_NEAR(occlusion(scene, few(64)), (1 - std::cos(angle)) / 2, 0.003) << degrees;
     }
 }
 
@@ -114,8 +118,8 @@ Settings truthOf(Settings like, int rays) {
     return settings;
 }
 
-// Error falls faster than that of independent rays, whose sixteenfold number quarters it, and
-// there is some: the reference's rays are others.
+// Error falls about as that of independent rays or faster, whose eightfold number makes it 2.8
+// times less, and there is some: the reference's rays are others.
 TEST_P(RaysLimits, TheErrorFallsAsRaysGrow) {
     const Scene scene = maskedScene();
     const auto picture = [&](const Settings& settings) {
@@ -123,13 +127,13 @@ TEST_P(RaysLimits, TheErrorFallsAsRaysGrow) {
     };
     const Image truth = picture(truthOf(few(1), 4096));
     double before = 10;
-    for (const int rays : {1, 16, 256}) {
+    for (const int rays : {1, 8, 64}) {
         const double error = compare(picture(few(rays)), truth).rms;
         EXPECT_GT(error, 1e-3) << rays;
-        EXPECT_LT(error, before / 3.5) << rays;
+        EXPECT_LT(error, before / 2.4) << rays;
         before = error;
     }
-    EXPECT_LT(before, 0.02);
+    EXPECT_LT(before, 0.03);
 }
 
 TEST_P(RaysLimits, TheFilterHelps) {
