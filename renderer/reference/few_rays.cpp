@@ -249,7 +249,8 @@ const gl::Texture& FewRays::operator()(const GBuffer& gbuffer, const Frame& fram
                                        int rays) const {
     State& state = *state_;
     const int width = gbuffer.target().width(), height = gbuffer.target().height();
-    state.prepare(static_cast<std::uint32_t>(rays), static_cast<std::uint32_t>(frame.seed.x + frame.seed.y));
+    state.prepare(static_cast<std::uint32_t>(rays),
+                  static_cast<std::uint32_t>(frame.seed.x + frame.seed.y));
     const std::vector<float> depth =
         gl::readFloats(gbuffer.depth(), width, height, gl::Format::r32f);
     const std::vector<std::byte> normals =
