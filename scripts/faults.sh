@@ -10,6 +10,12 @@ fault vao-slope renderer/shaders/ao/vao_plus_plus.glsl \
 fault horizon-falls renderer/shaders/horizon.glsl \
     's|\(1\.0 - settings\.attenuation \* squared\) \* \(rise - horizon\)|(1.0 - settings.attenuation * squared) * rise|' \
     limits_gl_test '*HorizonLimits.*'
+fault horizon-edge renderer/shaders/ao/ambient_occlusion_volumes.glsl \
+    's|if \(low <= 0\.0\)|if (low < 0.0)|' \
+    limits_gl_test 'ObjectLimits.Volumes*' # an edge that lies in the tangent plane
+fault voxel-way renderer/shaders/ao/voxel_ao.glsl \
+    's|dot\(opacity, abs\(direction\)\)|dot(opacity, direction * direction)|' \
+    limits_gl_test 'ObjectLimits.Cones*'
 fault bias-sign renderer/shaders/horizon.glsl \
     's|sine \* biasCosSin\.x \+ sqrt|sine * biasCosSin.x - sqrt|' \
     limits_gl_test '*HorizonLimits.*'

@@ -3,7 +3,6 @@
 #include "renderer/builtin/noise.h"
 
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,18 +12,14 @@ namespace obscura::builtin {
 
 namespace {
 
-glm::mat4 rolled(glm::vec3 position, float degrees) { // about z
-    return glm::rotate(glm::translate(glm::mat4(1), position), glm::radians(degrees),
-                       glm::vec3(0, 0, 1));
-}
-
 glm::vec3 clothColour(Random& random) {
     constexpr std::array<glm::vec3, 12> colours{
         glm::vec3(0.45F, 0.16F, 0.14F), {0.16F, 0.25F, 0.38F}, {0.22F, 0.33F, 0.26F},
         {0.78F, 0.70F, 0.55F},          {0.68F, 0.47F, 0.20F}, {0.30F, 0.22F, 0.19F},
         {0.55F, 0.58F, 0.56F},          {0.86F, 0.83F, 0.76F}, {0.20F, 0.20F, 0.22F},
         {0.62F, 0.33F, 0.22F},          {0.35F, 0.46F, 0.52F}, {0.50F, 0.42F, 0.32F}};
-    return colours[random.below(colours.size())] * between(random, 0.85, 1.12);
+    const glm::vec3 colour = colours[random.below(colours.size())];
+    return colour * between(random, 0.85, 1.12);
 }
 
 // Upright, its spine at z = 0, its lower left corner at the origin. `size`: thickness, height,
@@ -65,7 +60,7 @@ Shape bookRow(float length, float height, float depth, Random& random) {
         const float back = between(random, 0, 0.012);
         const float lean = size.y * 0.21F + size.x;
         if (x + size.x + lean > length) {
-            shape.add(book(size, colour), rolled({x + 0.2F * size.y, 0, -back}, 11.6F));
+            shape.add(book(size, colour), rolled(at({x + 0.2F * size.y, 0, -back}), 11.6F));
             return shape;
         }
         shape.add(book(size, colour), at({x, 0, -back}));
@@ -80,7 +75,7 @@ Shape bookStack(int count, Random& random) {
         glm::vec3 size = bookSize(random, 0.27F, 0.2F);
         size.y = std::max(size.y, 0.2F - 0.01F * part(i, 1));
         Shape lying;
-        lying.add(book(size, clothColour(random)), rolled({size.y / 2, 0, size.z / 2}, 90));
+        lying.add(book(size, clothColour(random)), rolled(at({size.y / 2, 0, size.z / 2}), 90));
         const float aside = between(random, -0.01, 0.01), turn = between(random, -9, 9);
         shape.add(lying, at({aside, y, 0}, turn));
         y += size.x + 0.0005F;
@@ -162,7 +157,7 @@ Shape fruit(float bowlRadius, Random& random) {
             tinted(rod({0, 0.7F * radius, 0, 0.0018F}, {0.006F, 1.1F * radius, 0, 0.0022F}, 5),
                    {0.25F, 0.17F, 0.10F}));
         const float turn = between(random, 0, 360), tilt = between(random, -30, 30);
-        shape.add(apple, glm::rotate(at(place, turn), glm::radians(tilt), glm::vec3(1, 0, 0)));
+        shape.add(apple, pitched(at(place, turn), tilt));
     };
     const float size = 0.30F * bowlRadius, ring = 0.46F * bowlRadius;
     for (int i = 0; i < 5; ++i) {
@@ -386,7 +381,7 @@ Picture picture(glm::vec2 size) {
     const Outline profile{{-bar, 0},         {-bar, 0.010F},    {-bar + 0.006F, 0.014F},
                           {-0.010F, 0.022F}, {-0.004F, 0.020F}, {0, 0.014F},
                           {0, -0.012F}};
-    const glm::mat4 upright = glm::rotate(glm::mat4(1), glm::half_pi<float>(), glm::vec3(1, 0, 0));
+    const glm::mat4 upright = pitched(glm::mat4(1), 90);
     Outline turned = profile;
     std::reverse(turned.begin(), turned.end());
     result.frame.add(pillar(turned, size + 2 * bar), upright);

@@ -10,11 +10,6 @@ namespace obscura::builtin {
 
 namespace {
 
-glm::mat4 tilted(glm::vec3 position, float degrees) { // about x
-    return glm::rotate(glm::translate(glm::mat4(1), position), glm::radians(degrees),
-                       glm::vec3(1, 0, 0));
-}
-
 // One piece of wood among others.
 void addWood(Shape& shape, Shape piece, const glm::mat4& place) {
     alongGrain(piece);
@@ -165,12 +160,12 @@ Upholstered sofa(float width, int seats) {
     for (const float side : {-1.0F, 1.0F})
         cloth.add(stuffed({arm, 0.46F, 0.88F}, 0.06F, 0.02F),
                   at({side * (width - arm) / 2, 0.37F, 0}));
-    cloth.add(rounded({inside + 0.04F, 0.50F, 0.16F}, 0.06F), tilted({0, 0.55F, -0.35F}, -6));
+    cloth.add(rounded({inside + 0.04F, 0.50F, 0.16F}, 0.06F), pitched(at({0, 0.55F, -0.35F}), -6));
     for (int i = 0; i < seats; ++i) {
         const float x = each * (part(i, 1) + 0.5F) - inside / 2;
         cloth.add(stuffed({each - 0.006F, 0.15F, 0.66F}, 0.05F, 0.16F), at({x, 0.395F, 0.10F}));
         cloth.add(stuffed({each - 0.02F, 0.16F, 0.42F}, 0.06F, 0.35F),
-                  tilted({x, 0.66F, -0.19F}, -104));
+                  pitched(at({x, 0.66F, -0.19F}), -104));
     }
     for (const float x : {-1.0F, 1.0F})
         for (const float z : {-0.36F, 0.36F})

@@ -4,8 +4,6 @@
 #include "renderer/builtin/masonry.h"
 #include "renderer/builtin/noise.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -90,7 +88,7 @@ void addGround(Works& works) {
             const glm::mat4 place =
                 at({x + length / 2, level, terrace + row * (part(j, 1) + 0.5F)});
             Shape placed;
-            placed.add(slab, glm::rotate(place, glm::radians(tilt), glm::vec3(0, 0, 1)));
+            placed.add(slab, rolled(place, tilt));
             projectUv(placed);
             for (Vertex& vertex : placed.vertices)
                 vertex.uv += 3.1F * length;
@@ -194,8 +192,7 @@ void addHouse(Works& works) {
     for (int i = 0; i < 9; ++i) // courses of tiles
         roof.add(
             box({2 * half.x + 1.5F, 0.025F, 0.34F}, 0.006F),
-            glm::rotate(place * at({0, 3.58F + 0.175F * part(i, 1), 0.27F - 0.25F * part(i, 1)}),
-                        glm::radians(29.0F), glm::vec3(1, 0, 0)));
+            pitched(place * at({0, 3.58F + 0.175F * part(i, 1), 0.27F - 0.25F * part(i, 1)}), 29));
     projectUv(roof);
     works.terracotta.add(roof);
     for (const Hole& hole : holes) {

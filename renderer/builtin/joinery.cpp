@@ -1,7 +1,6 @@
 #include "renderer/builtin/joinery.h"
 
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
 #include <array>
 #include <cmath>
@@ -171,14 +170,22 @@ Bench gardenBench(float width) {
         alongGrain(board);
         for (Vertex& vertex : board.vertices)
             vertex.uv.y += 3.7F * place.z;
-        bench.wood.add(board, glm::rotate(at(place), glm::radians(degrees), glm::vec3(1, 0, 0)));
+        bench.wood.add(board, pitched(at(place), degrees));
     };
-    for (int i = 0; i < 6; ++i) // the seat, hollow in the middle
-        slat({0, 0.445F - 0.02F * std::sin(glm::pi<float>() * part(i, 5)),
-              0.20F - 0.078F * part(i, 1)},
-             90 + 8 * (2 * part(i, 5) - 1), 0.066F);
-    for (int i = 0; i < 5; ++i)
-        slat({0, 0.54F + 0.085F * part(i, 1), -0.225F - 0.020F * part(i, 1)}, -13, 0.07F);
+    // Of each slat z, y and tilt: the seat, hollow in its middle, and the back.
+    for (const glm::vec3& each : {glm::vec3(0.2F, 0.445F, 82),
+                                  {0.122F, 0.432F, 85},
+                                  {0.044F, 0.426F, 88},
+                                  {-0.034F, 0.426F, 92},
+                                  {-0.112F, 0.432F, 95},
+                                  {-0.19F, 0.445F, 98}})
+        slat({0, each.y, each.x}, each.z, 0.066F);
+    for (const glm::vec2& each : {glm::vec2(-0.225F, 0.54F),
+                                  {-0.245F, 0.625F},
+                                  {-0.265F, 0.71F},
+                                  {-0.285F, 0.795F},
+                                  {-0.305F, 0.88F}})
+        slat({0, each.y, each.x}, -13, 0.07F);
     for (const float side : {-1.0F, 0.0F, 1.0F}) {
         const float x = side * (width / 2 - 0.12F);
         const auto iron = [&](std::initializer_list<glm::vec2> points, float radius) {

@@ -4,8 +4,6 @@
 #include "renderer/builtin/noise.h"
 #include "renderer/builtin/room.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <array>
 #include <utility>
 
@@ -44,8 +42,7 @@ void addThing(Works& works, int kind, const glm::mat4& spot, float free, Random&
         break;
     case 6: { // a picture that leans
         const Picture image = picture({0.15F, 0.19F});
-        const glm::mat4 lean =
-            glm::rotate(spot * at({0, 0.127F, 0.02F}), glm::radians(-12.0F), glm::vec3(1, 0, 0));
+        const glm::mat4 lean = pitched(spot * at({0, 0.127F, 0.02F}), -12);
         works.walnut.add(image.frame, lean);
         works.canvas.add(image.canvas, lean);
         break;
@@ -129,8 +126,7 @@ void addLedge(Works& works) {
     }
     const auto lean = [&](float x, glm::vec2 canvas) {
         const Picture image = picture(canvas);
-        const glm::mat4 spot = glm::rotate(place * at({x, canvas.y / 2 + 0.034F, 0.065F}),
-                                           glm::radians(-9.0F), glm::vec3(1, 0, 0));
+        const glm::mat4 spot = pitched(place * at({x, canvas.y / 2 + 0.034F, 0.065F}), -9);
         works.walnut.add(image.frame, spot);
         works.canvas.add(image.canvas, spot);
     };

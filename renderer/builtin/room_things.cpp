@@ -4,8 +4,6 @@
 #include "renderer/builtin/noise.h"
 #include "renderer/builtin/room.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
 #include <array>
 #include <utility>
 
@@ -53,8 +51,7 @@ void addPillows(Works& works, const glm::mat4& seat) {
           {{-0.40F, 0.475F, 0.12F}, -6, -26, {0.42F, 0.40F}, {0.83F, 0.79F, 0.70F}},
           {{0.66F, 0.475F, 0.07F}, -24, -22, {0.46F, 0.46F}, {0.60F, 0.28F, 0.18F}}})
         works.cloth.add(tinted(pillow(each.size, 0.17F), each.colour),
-                        seat * glm::rotate(at(each.position, each.turn), glm::radians(each.lean),
-                                           glm::vec3(1, 0, 0)));
+                        seat * pitched(at(each.position, each.turn), each.lean));
 }
 
 } // namespace
@@ -97,9 +94,8 @@ void addLyingAbout(Works& works) {
     works.terracotta.add(urn(0.36F), at({corner.x, 0, corner.z}));
     works.leaves.add(palm(13, 0.72F), at({corner.x, 0.30F, corner.z}, 35));
     works.wicker.add(basket(0.2F, 0.26F), at({-0.02F, 0, -1.55F}));
-    works.cloth.add(
-        tinted(pillow({0.36F, 0.3F}, 0.16F), {0.40F, 0.47F, 0.40F}),
-        glm::rotate(at({-0.02F, 0.09F, -1.5F}, 40), glm::radians(-32.0F), glm::vec3(1, 0, 0)));
+    works.cloth.add(tinted(pillow({0.36F, 0.3F}, 0.16F), {0.40F, 0.47F, 0.40F}),
+                    pitched(at({-0.02F, 0.09F, -1.5F}, 40), -32));
     works.oak.add(stool(0.44F), at({0.4F, 0, 0.62F}, 50));
     Random random(0, "builtin/room/floor");
     works.paper.add(bookStack(6, random), at({-1.62F, 0.0F, -1.62F}, 12));

@@ -97,6 +97,14 @@ glm::mat4 at(glm::vec3 position, float turnDegrees) {
                        glm::vec3(0, 1, 0));
 }
 
+glm::mat4 pitched(const glm::mat4& place, float degrees) {
+    return glm::rotate(place, glm::radians(degrees), glm::vec3(1, 0, 0));
+}
+
+glm::mat4 rolled(const glm::mat4& place, float degrees) {
+    return glm::rotate(place, glm::radians(degrees), glm::vec3(0, 0, 1));
+}
+
 namespace {
 
 // By differences that stay inside the unit square; at a pole, from a little way off.

@@ -35,6 +35,11 @@ Shape tinted(Shape shape, glm::vec3 colour);
 
 glm::mat4 at(glm::vec3 position, float turnDegrees = 0); // turned about y, then moved
 
+// Tilted by `degrees` about the place's own x axis, its top towards +z; about its own z axis.
+// (Compilers fold sines of constants to other last bits; they do not see through these calls.)
+glm::mat4 pitched(const glm::mat4& place, float degrees);
+glm::mat4 rolled(const glm::mat4& place, float degrees);
+
 // i / n in floating point: the place of one of n steps.
 inline float part(int i, int n) { return static_cast<float>(i) / static_cast<float>(n); }
 

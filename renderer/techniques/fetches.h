@@ -10,8 +10,8 @@ namespace obscura {
 // included. They are what the enabled passes declare (technique.h), each pass weighted by the
 // pixels that its target has for each pixel of that frame (scale, layers, levels, `downscale`).
 // This is the most, reached where no tap lies beyond the border and nothing is skipped; empty
-// pixels need few. How many spheres are splatted on a pixel depends on the scene, so one is
-// counted.
+// pixels need few. How many spheres or triangles' boxes lie over a pixel depends on the scene, so
+// one is counted.
 double fetchesPerPixel(const Settings& settings);
 
 // The fetches that pixels in one level of a pass's target really make.

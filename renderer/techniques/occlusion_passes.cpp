@@ -477,14 +477,14 @@ void OcclusionPasses::run(const Step& step, const OcclusionInputs& inputs) const
     target.readAll();
 }
 
-const gl::Texture& OcclusionPasses::oneFrame(const OcclusionInputs& inputs, const Frame& frame,
+const gl::Texture& OcclusionPasses::oneFrame(const OcclusionInputs& inputs,
                                              const PassObserver& issued) const {
     const auto tell = [&](const Pass& pass) {
         if (issued)
             issued(pass);
     };
     if (reduction_) {
-        reduction_->reduce(inputs.gbuffer, frame);
+        reduction_->reduce(inputs.gbuffer, inputs.frame);
         tell(Reduction::reducePass);
     }
     if (layers_.count() > 0) {
@@ -515,13 +515,13 @@ const gl::Texture& OcclusionPasses::visibility(const OcclusionInputs& inputs) co
 const gl::Texture& OcclusionPasses::next(const OcclusionInputs& inputs,
                                          const PassObserver& issued) const {
     if (!accumulation_)
-        return oneFrame(inputs, inputs.frame, issued);
-    Frame frame = inputs.frame;
-    frame.seed.y = accumulation_->frame();
-    cycledFrame_.emplace(frameBuffer(frame));
+        return oneFrame(inputs, issued);
+    OcclusionInputs cycled = inputs;
+    cycled.frame.seed.y = accumulation_->frame();
+    cycledFrame_.emplace(frameBuffer(cycled.frame));
     bindFrame(*cycledFrame_);
     const gl::Texture& result =
-        accumulation_->add(oneFrame(inputs, frame, issued), inputs.gbuffer, frame);
+        accumulation_->add(oneFrame(cycled, issued), inputs.gbuffer, cycled.frame);
     if (issued)
         issued(Accumulation::pass);
     return result;

@@ -55,7 +55,7 @@ struct OcclusionInputs {
     };
 
     const GBuffer& gbuffer;
-    const Frame& frame; // the one that is bound
+    Frame frame; // the one that is bound
     std::function<Light()> light = {};
     std::function<const ProxySpheres&()> spheres = {};
     Peel peel = {};
@@ -115,8 +115,7 @@ class OcclusionPasses {
     void bindInputs(const OcclusionInputs& inputs) const;
     void run(const Step& step, const OcclusionInputs& inputs) const;
 
-    const gl::Texture& oneFrame(const OcclusionInputs& inputs, const Frame& frame,
-                                const PassObserver& issued) const;
+    const gl::Texture& oneFrame(const OcclusionInputs& inputs, const PassObserver& issued) const;
 
     mutable std::optional<Reduction> reduction_; // keeps its frame
     FurtherLayers layers_;

@@ -85,7 +85,7 @@ struct Pass {
     std::string_view file = {}; // of the shader folder; without it ao/<id of technique>.glsl
     // The most that one pixel of the target makes: at level 0, and at each next level where the
     // pass has those. In rows and columns, its share of what a whole group makes away from the
-    // border; as a splat, for one sphere. renderer/techniques/fetches.h counts them.
+    // border; as a splat or a box, for one of them. renderer/techniques/fetches.h counts them.
     Fetches fetches = nullptr;
     Fetches levelFetches = nullptr;
 };

@@ -37,7 +37,8 @@ constexpr Parameter voxelParameters[] = {
      "ours: finer ones do not fit into the memory for Sponza"},
     {"cones", Unit::count, "cones traced per pixel", 6, 1, 255,
      "usual: one along the normal and five around it"},
-    {"steps", Unit::count, "voxels read along each cone", 6, 1, 255, "ours"},
+    {"steps", Unit::count, "voxels read along each cone", 4, 1, 255,
+     "ours: on Sponza six are no nearer"},
     {"bias", Unit::ratio,
      "height above the surface's plane, in voxels of the size read, below which none is centred",
      1.5f, 0, 10, "ours"},
@@ -45,7 +46,8 @@ constexpr Parameter voxelParameters[] = {
     radiusMultiplier(),
     intensity(),
     power(),
-    downscale};
+    downscale,
+    accumulate};
 
 constexpr auto voxelPasses =
     gatherAndBlur([](const Settings& s) { return 2.0 + s["cones"] * s["steps"]; }, normalBlur);

@@ -124,7 +124,8 @@ TEST_F(Temporal, AccumulationSteadiesAStillCamera) {
 
 TEST_F(Temporal, GhostsShowWhereAccumulationIsWrong) {
     TemporalStudy both = study({"orbit", "cut"});
-    Settings settings(technique("gtao"));
+    Settings settings(technique("alchemy"));
+    settings.set("blur", 0);
     both.configurations = {{"alone", settings}};
     settings.set("accumulate", 8);
     both.configurations.push_back({"accumulated", settings});

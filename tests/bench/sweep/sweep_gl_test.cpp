@@ -134,7 +134,7 @@ TEST_F(SweepTest, MeasuresEveryConfigurationOnceAndChooses) {
     // The race gives the answer that measuring everything gives.
     Budget loose, strict, paid, impossible;
     loose.rmse = 1;
-    strict.rmse = 1.001 * leastBudget(first, "gtao"); // what no other meets
+    strict.rmse = 1.001 * leastBudget(first, "gtao");               // what no other meets
     paid.rmse = 1.001 * leastBudget(first, "starcraft samples=64"); // what both that darken meet
     ASSERT_LT(*strict.rmse, std::min(*paid.rmse, leastBudget(first, "none")));
     ASSERT_LT(*paid.rmse, leastBudget(first, "none"));

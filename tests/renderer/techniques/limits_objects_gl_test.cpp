@@ -177,7 +177,7 @@ double wallError(double distance, const Settings& settings) {
 // Seen from a corner's floor, I1 is seg(d / R).
 TEST_F(ObjectLimits, ConesBesideAWall) {
     for (const double distance : {0.1, 0.3, 0.6})
-        EXPECT_NEAR(wallError(distance, cones(64, 255, 128)), 0, 0.015) << distance;
+        EXPECT_NEAR(wallError(distance, cones(64, 255, 128)), 0, 0.025) << distance;
 }
 
 // 1 - a^2 / min(a^2 + h^2, R^2), for a radius R of 1.5 wells.
@@ -186,7 +186,7 @@ TEST_F(ObjectLimits, ConesInAWell) {
     settings.set("radius", 1.5);
     for (const double height_ : {0.4, 0.8, 2.0})
         EXPECT_NEAR(1 - mean(well(static_cast<float>(height_)), settings),
-                    1 - 1 / std::min(1 + height_ * height_, 1.5 * 1.5), 0.03)
+                    1 - 1 / std::min(1 + height_ * height_, 1.5 * 1.5), 0.04)
             << height_;
 }
 
