@@ -279,6 +279,16 @@ std::string introduction(const Sweep& sweep) {
             "<p class=\"warning\">This renderer is software. What is fast on a processor need not "
             "be on a GPU: neither these times nor their ratios and ranks carry over. Errors "
             "do.</p>\n";
+    if (std::any_of(sweep.rows.begin(), sweep.rows.end(), [](const SweepRow& row) {
+            const std::string settings = " " + row.settings + " ";
+            return settings.find(" accumulate=") != std::string::npos &&
+                   settings.find(" accumulate=1 ") == std::string::npos;
+        }))
+        html +=
+            "<p class=\"warning\">Configurations with <code>accumulate</code> show the mean of so "
+            "many frames of a camera at rest, and have the time of one. Of a camera that moves "
+            "they "
+            "are worse: see the tests of stability.</p>\n";
     return html +
            "<p>Each mark is one configuration: its milliseconds against its error. Left and low is "
            "better; the staircase is the Pareto front, and all in its shade is beaten by something "
