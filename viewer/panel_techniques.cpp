@@ -120,8 +120,11 @@ void presets(Moment& moment, Settings& settings) {
             chosen = static_cast<int>(names.size());
         names.emplace_back(preset.name);
     }
-    if (segments(moment.ui, "Preset", names, chosen,
-                 "Settings that its authors offer together under one name"))
+    constexpr std::size_t mostSideBySide = 4;
+    if (names.size() > mostSideBySide
+            ? choice(moment.ui, "Preset", names, chosen)
+            : segments(moment.ui, "Preset", names, chosen,
+                       "Settings that its authors offer together under one name"))
         settings.apply(names[static_cast<std::size_t>(chosen)]);
 }
 

@@ -80,7 +80,7 @@ struct FileDrag::Sender {
             send("XdndDrop", {0, CurrentTime});
         } else if (event.type == ClientMessage &&
                    event.xclient.message_type == atom("XdndFinished"))
-            taken = (event.xclient.data.l[1] & 1) != 0;
+            taken = event.xclient.data.l[1] != 0; // GLFW 3.3 says how many bytes it took
     }
 };
 
