@@ -104,17 +104,21 @@ TEST_F(Temporal, WritesTheCellsPicturesAndTheAnimation) {
     EXPECT_EQ(shares.size(), 8);
 }
 
+// The study of a picture that is all noise, alone and as the mean of eight frames.
+TemporalStudy withAndWithout(TemporalStudy study, int frames) {
+    Settings settings(technique("alchemy"));
+    settings.set("blur", 0);
+    study.configurations = {{"alone", settings}};
+    settings.set("accumulate", 8);
+    study.configurations.push_back({"accumulated", settings});
+    study.effort.frames = frames;
+    return study;
+}
+
 // Noise alone flickers, and the mean of eight frames less: by the root of 15 if all were
 // independent, for an exponential mean of weight 1 / n is one of 2 n - 1 frames.
 TEST_F(Temporal, AccumulationSteadiesAStillCamera) {
-    TemporalStudy both = study({"still"});
-    Settings settings(technique("alchemy"));
-    settings.set("blur", 0);
-    both.configurations = {{"alone", settings}};
-    settings.set("accumulate", 8);
-    both.configurations.push_back({"accumulated", settings});
-    both.effort.frames = 12;
-    const auto cells = measureTemporal(both);
+    const auto cells = measureTemporal(withAndWithout(study({"still"}), 12));
     const double alone = headlineOf(cells, "alone", "still"),
                  accumulated = headlineOf(cells, "accumulated", "still");
     EXPECT_GT(alone, 0.005);
@@ -125,14 +129,7 @@ TEST_F(Temporal, AccumulationSteadiesAStillCamera) {
 // On the orbit next to nothing changes, so that noise alone tells the picture from a still one;
 // after the cut history comes from twice as far.
 TEST_F(Temporal, OnlyWhatAccumulatesHasGhosts) {
-    TemporalStudy both = study({"orbit", "cut"});
-    Settings settings(technique("alchemy"));
-    settings.set("blur", 0);
-    both.configurations = {{"alone", settings}};
-    settings.set("accumulate", 8);
-    both.configurations.push_back({"accumulated", settings});
-    both.effort.frames = 6;
-    const auto cells = measureTemporal(both);
+    const auto cells = measureTemporal(withAndWithout(study({"orbit", "cut"}), 6));
     int ghosts = 0;
     for (const StabilityCell& cell : cells) {
         if (!cell.measure.starts_with("ghosts"))
