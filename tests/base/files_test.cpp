@@ -132,7 +132,9 @@ TEST(Files, NobodyElseRemovesAnything) {
         {"generate.cpp", 1}, // the unfinished manifest that this run has written
         {"main.cpp", 1},     // the folder of obscura-validity's own process in memory
         {"report.cpp", 1},   // a choice that obscura-bench choose wrote
-        {"tallying.cpp", 1}  // a simulated study's CSV in that folder
+        {"tallying.cpp", 1}, // a simulated study's CSV in that folder
+        {"units.cpp",
+         2} // claims of its own, of processes that were given up before it, and that are gone
     };
     std::map<std::string, int> found;
     const fs::path source = OBSCURA_SOURCE;

@@ -1,0 +1,439 @@
+#include "base/units.h"
+
+#include "base/error.h"
+#include "base/files.h"
+#include "base/process.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <charconv>
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+
+namespace obscura {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+
+constexpr auto pollEvery = std::chrono::milliseconds(500);
+
+fs::path unitsFolder(const fs::path& folder) { return folder / "units"; }
+
+// What a person can read, and no other unit's.
+std::string fileNameOf(const std::string& unit) {
+    return fmt::format("{}-{}", plainName(unit).substr(0, 120), sha256(unit).substr(0, 12));
+}
+
+// Seconds since 1970 by the clock of the file's own server, which set it; nothing if it is gone.
+std::optional<double> touchedAt(const fs::path& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0)
+        return std::nullopt;
+    return static_cast<double>(status.st_mtim.tv_sec) +
+           1e-9 * static_cast<double>(status.st_mtim.tv_nsec);
+}
+
+bool touch(const fs::path& path) { return ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0) == 0; }
+
+// Now, by the clock that touchedAt() goes by: that of this machine where the folder cannot be
+// written to.
+double folderNow(const fs::path& about) {
+    if (touch(about))
+        if (const auto now = touchedAt(about))
+            return *now;
+    return Seconds(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+struct ClaimFile {
+    int number = 0; // from 1
+    fs::path path;
+};
+
+// What the folder says of a unit at one moment.
+struct UnitFiles {
+    fs::path done; // empty: not finished
+    std::vector<ClaimFile> claims;
+
+    const ClaimFile* last() const {
+        const auto found =
+            std::max_element(claims.begin(), claims.end(),
+                             [](const auto& a, const auto& b) { return a.number < b.number; });
+        return found == claims.end() ? nullptr : &*found;
+    }
+};
+
+// By fileNameOf().
+using Listing = std::map<std::string, UnitFiles, std::less<>>;
+
+Listing listingOf(const fs::path& folder) {
+    Listing listing;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const std::string file = entry.path().filename().string();
+        constexpr std::string_view claimMark = ".claim-", doneMark = ".done";
+        if (file.ends_with(doneMark)) {
+            listing[file.substr(0, file.size() - doneMark.size())].done = entry.path();
+            continue;
+        }
+        const std::size_t mark = file.rfind(claimMark);
+        if (mark == file.npos)
+            continue;
+        const char *begin = file.data() + mark + claimMark.size(), *end = file.data() + file.size();
+        ClaimFile claim{0, entry.path()};
+        if (const auto read = std::from_chars(begin, end, claim.number);
+            read.ec == std::errc() && read.ptr == end && claim.number > 0)
+            listing[file.substr(0, mark)].claims.push_back(claim);
+    }
+    return listing;
+}
+
+struct Holder {
+    std::optional<ProcessId> process; // nothing: the claim cannot be read (it may have gone)
+    double since = 0, touched = 0;
+    bool lives = false;
+};
+
+// A claim that has just gone is nobody's.
+Holder holderOf(const fs::path& claim, double now, double lease) {
+    Holder holder;
+    const auto touched = touchedAt(claim);
+    if (!touched)
+        return holder;
+    holder.touched = *touched;
+    try {
+        const std::string text = readFile(claim);
+        const std::size_t line = text.find('\n');
+        holder.process = ProcessId::parse(std::string_view(text).substr(0, line));
+        if (line != text.npos)
+            std::from_chars(text.data() + line + 1, text.data() + text.size(), holder.since);
+    } catch (const Error&) {
+        return holder;
+    }
+    holder.lives = now - *touched < lease && !(holder.process && isGone(*holder.process));
+    return holder;
+}
+
+nlohmann::ordered_json planJson(const std::vector<Unit>& plan) {
+    auto units = nlohmann::ordered_json::array();
+    for (const Unit& unit : plan)
+        units.push_back({{"name", unit.name}, {"group", unit.group}, {"cost", unit.cost}});
+    return {{"formatVersion", 1}, {"units", units}};
+}
+
+void addPlan(const fs::path& file, std::map<std::string, Unit>& units) {
+    try {
+        const auto root = nlohmann::json::parse(readFile(file));
+        for (const auto& unit : root.at("units"))
+            units[unit.at("name")] = {unit.at("name"), unit.at("group"), unit.at("cost")};
+    } catch (const nlohmann::json::exception& error) {
+        throw Error({file.string(), 0, 0, {}},
+                    fmt::format("expected a plan of units as obscura wrote it, found {}; name "
+                                "another folder with --out",
+                                error.what()));
+    }
+}
+
+// Every unit that any process has planned in the folder.
+std::map<std::string, Unit> plannedUnits(const fs::path& folder) {
+    std::map<std::string, Unit> units;
+    if (fs::is_directory(folder))
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+            if (const std::string name = entry.path().filename().string();
+                name.starts_with("plan-") && name.ends_with(".json"))
+                addPlan(entry.path(), units);
+    if (units.empty())
+        throw Error({folder.string(), 0, 0, {}},
+                    "expected a folder in which work is shared, with a plan of its units, found "
+                    "none; it appears when the first worker begins");
+    return units;
+}
+
+// How long all workers need for the rest, by how fast the last quarter of the finished was done.
+std::optional<double> secondsLeft(const std::vector<std::pair<double, double>>& finished,
+                                  double costLeft, double now) {
+    const std::size_t count =
+        std::min(finished.size(), std::max<std::size_t>(10, finished.size() / 4));
+    if (count < 2)
+        return std::nullopt;
+    const auto first = finished.end() - static_cast<std::ptrdiff_t>(count);
+    double cost = 0;
+    for (auto at = first + 1; at != finished.end(); ++at)
+        cost += at->second;
+    const double seconds = now - first->first;
+    return cost > 0 && seconds > 0 ? std::optional(costLeft * seconds / cost) : std::nullopt;
+}
+
+UnitsState stateOf(const std::map<std::string, Unit>& units, const fs::path& folder, double lease) {
+    UnitsState state;
+    const double now = folderNow(folder / "about");
+    const Listing listing = listingOf(folder);
+    std::vector<std::pair<double, double>> finished; // when, cost
+    for (const auto& [name, unit] : units) {
+        ++state.units;
+        state.cost += unit.cost;
+        const auto found = listing.find(fileNameOf(name));
+        if (found == listing.end())
+            continue;
+        const UnitFiles& files = found->second;
+        if (!files.done.empty()) {
+            ++state.done;
+            state.costDone += unit.cost;
+            finished.emplace_back(touchedAt(files.done).value_or(now), unit.cost);
+        } else if (const ClaimFile* claim = files.last()) {
+            const Holder holder = holderOf(claim->path, now, lease);
+            if (!holder.lives)
+                state.broken.push_back(name);
+            else
+                state.held.push_back({name, holder.process ? holder.process->machine : "",
+                                      holder.process ? holder.process->pid : 0,
+                                      std::max(0.0, now - holder.since)});
+        }
+    }
+    std::sort(finished.begin(), finished.end());
+    if (!state.held.empty())
+        state.secondsLeft = secondsLeft(finished, state.cost - state.costDone, now);
+    return state;
+}
+
+} // namespace
+
+UnitsState unitsState(const fs::path& folder, Seconds lease) {
+    return stateOf(plannedUnits(unitsFolder(folder)), unitsFolder(folder), lease.count());
+}
+
+struct Units::Implementation {
+    fs::path folder; // "units" itself
+    std::vector<Unit> plan;
+    Lease lease;
+    mutable std::set<std::string> done; // as far as known
+
+    std::mutex mutex;
+    std::condition_variable_any changed;
+    std::map<std::string, fs::path> held; // claims of this process, by unit
+    std::jthread heart;                   // last: it ends first
+
+    fs::path doneFile(const std::string& name) const {
+        return folder / (fileNameOf(name) + ".done");
+    }
+    double now() const { return folderNow(folder / "about"); }
+
+    struct Open {
+        const Unit* unit;
+        ClaimFile last; // of a process that is gone; number 0: none
+    };
+
+    void tidy();
+    void open(const std::string& about);
+    std::vector<Open> openUnits(const std::string& group,
+                                const std::function<bool(const Unit&)>& among, bool& others);
+    void beat(const std::stop_token& stop);
+    bool claim(const std::string& name, int number);
+    bool release(const std::string& name);
+};
+
+// Removes claims of finished units, by processes that ended between the two.
+void Units::Implementation::tidy() {
+    for (const auto& [unit, files] : listingOf(folder))
+        for (const ClaimFile& claim : files.claims)
+            if (const Holder holder = holderOf(claim.path, 0, 0);
+                !files.done.empty() && holder.process && isGone(*holder.process)) {
+                std::error_code gone; // another run, tidying as well, was quicker
+                fs::remove(claim.path, gone);
+            }
+}
+
+// The first process writes what the folder is about; the others compare.
+void Units::Implementation::open(const std::string& about) {
+    makeFolders(folder);
+    removeUnfinishedFiles(folder);
+    tidy();
+    const fs::path file = folder / "about";
+    if (!writeNewFile(file, about)) {
+        const std::string found = readFile(file);
+        if (found != about)
+            throw Error({file.string(), 0, 0, {}},
+                        fmt::format("expected work on\n{}\nfound work on\n{}\nin this folder; "
+                                    "results can stand in one folder only if this is the same; "
+                                    "--out names another",
+                                    about, found));
+    }
+    const std::string text = planJson(plan).dump(1) + "\n";
+    writeNewFile(folder / fmt::format("plan-{}.json", sha256(text).substr(0, 12)), text);
+}
+
+void Units::Implementation::beat(const std::stop_token& stop) {
+    std::unique_lock lock(mutex);
+    while (!stop.stop_requested()) {
+        changed.wait_for(lock, stop, lease / 4, [] { return false; });
+        for (const auto& [name, path] : held)
+            touch(path); // another process may have taken it from us; the first result counts
+    }
+}
+
+// One of all that try wins.
+bool Units::Implementation::claim(const std::string& name, int number) {
+    const fs::path path = folder / fmt::format("{}.claim-{}", fileNameOf(name), number);
+    if (!writeNewFile(path, fmt::format("{}\n{:.3f}\n", ProcessId::current().text(), now())))
+        return false;
+    const std::scoped_lock lock(mutex);
+    held[name] = path;
+    return true;
+}
+
+// Removes our claim, and those before it, whose processes had been given up.
+bool Units::Implementation::release(const std::string& name) {
+    const std::scoped_lock lock(mutex);
+    const auto found = held.find(name);
+    if (found == held.end())
+        return false;
+    const std::string own = found->second.string();
+    const std::size_t at = own.rfind('-') + 1;
+    for (int number = std::stoi(own.substr(at)); number > 0; --number) {
+        std::error_code gone; // the claims below were perhaps removed by their own processes
+        fs::remove(own.substr(0, at) + std::to_string(number), gone);
+    }
+    held.erase(found);
+    return true;
+}
+
+Units::Units(fs::path folder, std::string about, std::vector<Unit> plan, Lease lease)
+    : self_(std::make_unique<Implementation>()) {
+    self_->folder = unitsFolder(folder);
+    self_->plan = std::move(plan);
+    self_->lease = lease;
+    self_->open(about);
+    self_->heart = std::jthread([this](const std::stop_token& stop) { self_->beat(stop); });
+}
+
+Units::~Units() {
+    while (!self_->held.empty())
+        self_->release(std::string(self_->held.begin()->first));
+}
+
+bool Units::isDone(const std::string& name) const {
+    if (self_->done.contains(name))
+        return true;
+    if (!fs::exists(self_->doneFile(name)))
+        return false;
+    self_->done.insert(name);
+    return true;
+}
+
+std::optional<std::string> Units::result(const std::string& name) const {
+    return isDone(name) ? std::optional(readFile(self_->doneFile(name))) : std::nullopt;
+}
+
+// The units that nobody has claimed, or else those whose holders are gone: holders are looked at
+// last, because that takes a file each.
+std::vector<Units::Implementation::Open>
+Units::Implementation::openUnits(const std::string& group,
+                                 const std::function<bool(const Unit&)>& among, bool& others) {
+    std::vector<Open> open, claimed;
+    std::map<std::string, std::size_t> workers; // by group
+    const Listing listing = listingOf(folder);
+    for (const Unit& unit : plan) {
+        if ((among && !among(unit)) || done.contains(unit.name))
+            continue;
+        const auto found = listing.find(fileNameOf(unit.name));
+        const UnitFiles files = found == listing.end() ? UnitFiles{} : found->second;
+        if (!files.done.empty()) {
+            done.insert(unit.name);
+        } else if (const ClaimFile* last = files.last()) {
+            ++workers[unit.group];
+            claimed.push_back({&unit, *last});
+        } else {
+            open.push_back({&unit, {}});
+        }
+    }
+    others = !claimed.empty();
+    if (open.empty()) {
+        const double at = now();
+        std::erase_if(claimed, [&](const Open& unit) {
+            return holderOf(unit.last.path, at, lease.count()).lives;
+        });
+        open = std::move(claimed);
+    }
+    const auto rank = [&](const Open& candidate) {
+        return candidate.unit->group == group ? 0 : 1 + workers[candidate.unit->group];
+    };
+    std::stable_sort(open.begin(), open.end(),
+                     [&](const Open& a, const Open& b) { return rank(a) < rank(b); });
+    return open;
+}
+
+std::optional<std::string> Units::claimNext(const std::string& group,
+                                            const std::function<void()>& waiting,
+                                            const std::function<bool(const Unit&)>& among) {
+    for (bool others = true;;) {
+        const auto open = self_->openUnits(group, among, others);
+        for (const auto& candidate : open) {
+            const std::string& name = candidate.unit->name;
+            if (!self_->claim(name, candidate.last.number + 1))
+                continue;
+            if (!isDone(name))
+                return name;
+            self_->release(name); // finished since the listing
+        }
+        if (open.empty() && !others)
+            return std::nullopt;
+        if (waiting)
+            waiting();
+        if (open.empty())
+            std::this_thread::sleep_for(pollEvery);
+    }
+}
+
+std::string Units::require(const std::string& name, const Work& work,
+                           const std::function<void()>& waiting) {
+    for (;;) {
+        if (const auto known = result(name))
+            return *known;
+        const Listing listing = listingOf(self_->folder);
+        const auto found = listing.find(fileNameOf(name));
+        const ClaimFile* last = found == listing.end() ? nullptr : found->second.last();
+        const bool isHeld = last && holderOf(last->path, self_->now(), self_->lease.count()).lives;
+        if (!isHeld && self_->claim(name, last ? last->number + 1 : 1)) {
+            try {
+                if (!isDone(name)) // finished since the listing
+                    finish(name, work());
+                else
+                    giveBack(name);
+            } catch (...) {
+                giveBack(name);
+                throw;
+            }
+            continue;
+        }
+        if (waiting)
+            waiting();
+        if (isHeld)
+            std::this_thread::sleep_for(pollEvery);
+    }
+}
+
+bool Units::finish(const std::string& name, const std::string& result) {
+    const bool first = writeNewFile(self_->doneFile(name), result);
+    self_->done.insert(name);
+    self_->release(name);
+    return first;
+}
+
+void Units::giveBack(const std::string& name) { self_->release(name); }
+
+UnitsState Units::state() const {
+    std::map<std::string, Unit> units;
+    for (const Unit& unit : self_->plan)
+        units[unit.name] = unit;
+    return stateOf(units, self_->folder, self_->lease.count());
+}
+
+} // namespace obscura
