@@ -182,9 +182,7 @@ void trace(const RayScene& scene, const Picture& picture, std::span<const Packet
            int firstX, int firstY, float* visibility) {
     const int width = std::min(block, picture.width - firstX),
               height = std::min(block, picture.height - firstY);
-    Points points;
-    points.valid.fill(0);
-    points.open.fill(0);
+    Points points{}; // numbers also beyond the picture, because Embree's assertions read every lane
     for (int y = 0; y < height; ++y)
         locate(picture, firstX, firstY + y, width, static_cast<std::size_t>(y * block), points);
     RTCRay16 rays;
