@@ -8,6 +8,7 @@
 #include "renderer/reference/traced.h"
 #include "renderer/scene/ground.h"
 #include "renderer/techniques/occlusion_passes.h"
+#include "renderer/techniques/pass_shaders.h"
 
 #include <fmt/format.h>
 

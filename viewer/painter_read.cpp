@@ -1,5 +1,6 @@
 #include "gl/context.h"
 #include "renderer/reference/traced.h"
+#include "renderer/techniques/pass_shaders.h"
 #include "viewer/painter.h"
 #include "viewer/painter_state.h"
 

@@ -1,5 +1,7 @@
 #include "renderer/techniques/fetches.h"
 
+#include "renderer/techniques/pass_shaders.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>

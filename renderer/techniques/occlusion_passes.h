@@ -14,25 +14,6 @@
 
 namespace obscura {
 
-// What a pass's shader writes: its value, or how many texture fetches that takes
-// (renderer/techniques/fetches.h).
-enum class Writes { value, fetches };
-
-// The assembled shader that runs one enabled pass of a technique: frame, settings, inputs, the
-// technique's file, and a main that calls the pass's function. With `level` 1 it is the text for
-// every level after the first. The vertex shader of a pass over objects comes from objectShader().
-gl::ShaderText passShader(const Settings& settings, const Pass& pass, int level = 0,
-                          Writes writes = Writes::value);
-gl::ShaderText objectShader(const Settings& settings, const Pass& pass);
-gl::Program passProgram(const Settings& settings, const Pass& pass, int level = 0,
-                        Writes writes = Writes::value);
-// The passes that these settings switch on, in order.
-std::vector<const Pass*> enabledPasses(const Settings& settings);
-// Whether the pass runs once for each sphere or triangle, all added up.
-bool drawsObjects(const Pass& pass);
-// What the pass writes under these settings.
-gl::Format formatOf(const Settings& settings, const Pass& pass);
-
 // Pixels that the technique wants rendered beyond each border of an image (guardBand).
 int guardPixels(const Settings& settings, int height);
 // Bytes of GPU memory that the technique's passes write to for an image of this size.

@@ -1,6 +1,7 @@
 // What the painter draws, beside what stimuli are made with; and what it does not draw again.
 #include "base/files.h"
 #include "renderer/render.h"
+#include "renderer/techniques/pass_shaders.h"
 #include "tests/renderer/scene/small_gltf.h"
 #include "tests/renderer/techniques/occlusion_fixture.h"
 #include "tests/viewer/room.h"
