@@ -34,7 +34,7 @@ void store(const Probe::StoredDepth& storedDepth, float empty, const GBuffer& gb
     const int width = gbuffer.target().width(), height = gbuffer.target().height();
     std::vector<float> depth = gl::readFloats(gbuffer.depth(), width, height, gl::Format::r32f);
     for (float& value : depth)
-        value = value < empty ? storedDepth(value) : value;
+        value = value < empty ? storedDepth.of(value) : value;
     gl::writeFloats(gbuffer.depth(), width, height, depth);
 }
 
@@ -74,12 +74,14 @@ const Probe::Sight& Probe::sight(int guard) const {
     std::unique_ptr<Sight>& known = sights_[guard];
     if (!known) {
         const int width = width_ + 2 * guard, height = height_ + 2 * guard;
-        const Frame frame =
+        Frame frame =
             makeFrame(camera_, width_, height_, subject_.scene().bounds(), seed_, {0, 0}, guard);
+        if (storedDepth_.of)
+            frame.depthStep = glm::vec4(storedDepth_.step, 0, 0);
         known.reset(
             new Sight{frame, frameBuffer(frame), GBuffer(width, height, {true, false, kind_}), {}});
         draw(*known);
-        if (storedDepth_)
+        if (storedDepth_.of)
             store(storedDepth_, frame.depth.y, known->gbuffer);
     }
     return *known;

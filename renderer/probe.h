@@ -46,8 +46,12 @@ class Subject {
 class Probe {
   public:
     // What becomes of a view depth (metres) in the buffer that techniques read, for example when it
-    // has fewer bits. surfaces() keep the true one.
-    using StoredDepth = std::function<float(float)>;
+    // has fewer bits, and how far apart such depths are (Frame::depthStep). surfaces() keep the
+    // true one.
+    struct StoredDepth {
+        std::function<float(float)> of;
+        glm::vec2 step;
+    };
 
     // The subject must outlive the probe.
     Probe(const Subject& subject, const Camera& camera, int width, int height, Normals kind,

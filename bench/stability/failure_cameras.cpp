@@ -60,7 +60,7 @@ class FarDepthTest : public FailureTest {
   public:
     explicit FarDepthTest(ImageSize size) : scene_(creaseScene()) {
         const std::pair<const char*, Probe::StoredDepth> formats[] = {
-            {"32-bit", {}}, {"24-bit", fixedPointDepth}, {"16-bit float", halfFloatDepth}};
+            {"32-bit", {}}, {"24-bit", fixedPointDepths()}, {"16-bit float", halfFloatDepths()}};
         for (const auto& [name, stored] : formats)
             for (const double distance : {5, 10, 100, 1000}) {
                 views_.emplace_back(scene_, creaseCamera(distance, 5.2), size, stored);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 namespace obscura {
 
@@ -87,6 +88,7 @@ Frame makeFrame(const Camera& camera, int width, int height, const Bounds& bound
     frame.size = glm::vec4(width, height, 1.0 / width, 1.0 / height);
     const double focus = glm::distance(vec(camera.position), vec(camera.target));
     frame.depth = glm::vec4(near, emptyDepth(viewFromWorld, bounds, near), focus, scaleY / 2);
+    frame.depthStep = glm::vec4(std::numeric_limits<float>::epsilon(), 0, 0, 0); // GBuffer::depth()
     frame.seed = glm::ivec4(static_cast<int>(seed & 0x7fffffff), 0, 0, 0);
     return frame;
 }

@@ -113,7 +113,8 @@ inline float ofHalf(std::uint32_t half) {
 
 // A ray starts 2 % of a pixel's width above the surface, which is more than what rasterisers snap
 // corners to (1/256), towards the camera and along the normal: so it starts before the face, and
-// one that a tilted normal sends below the face meets that and is blocked.
+// one that a tilted normal sends below the face meets that and is blocked. A depth that was rounded
+// may lie half a step behind the surface; as much nearer to the camera, it does not.
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
 #endif
@@ -129,7 +130,9 @@ void locate(const Picture& __restrict picture, int firstX, int y, int count, std
     for (int i = 0; i < count; ++i) {
         const std::size_t from = row + static_cast<std::size_t>(i);
         const std::size_t to = at + static_cast<std::size_t>(i);
-        const float depth = picture.depth[from];
+        const float stored = picture.depth[from];
+        const float step = stored * (frame.depthStep.x + stored * frame.depthStep.y);
+        const float depth = stored - 0.5f * step;
         const float vx =
             (static_cast<float>(firstX + i) + 0.5f) * frame.size.z * frame.viewFromUv.x +
             frame.viewFromUv.z;
@@ -151,7 +154,7 @@ void locate(const Picture& __restrict picture, int firstX, int y, int count, std
                 m[0][axis] * px + m[1][axis] * py + m[2][axis] * pz + m[3][axis];
             points.normal[axis][to] = m[0][axis] * nx + m[1][axis] * ny + m[2][axis] * nz;
         }
-        points.valid[to] = depth < empty ? -1 : 0;
+        points.valid[to] = stored < empty ? -1 : 0;
     }
 }
 

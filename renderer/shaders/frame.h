@@ -19,10 +19,11 @@ struct Frame {
     vec4 size;         // .xy pixels, .zw their inverse
     vec4 depth;        // .x nearest, .y value of empty pixels, .z focus distance (metres),
                        // .w uv in height that one metre covers at depth 1
+    vec4 depthStep;    // from a stored depth to the next: .x depth + .y depth^2 (metres)
     ivec4 seed;        // .x of the noise; .y accumulated frames so far, by which it differs too
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(Frame) == 3 * 64 + 4 * 16);
+static_assert(sizeof(Frame) == 3 * 64 + 5 * 16);
 } // namespace obscura
 #endif

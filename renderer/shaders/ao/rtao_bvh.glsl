@@ -19,6 +19,7 @@ vec4 gather(ivec2 pixel) {
     float depth = depthInside(pixel);
     if (isEmpty(depth))
         return vec4(1.0);
+    depth -= 0.5 * depth * (frame.depthStep.x + depth * frame.depthStep.y);
     vec3 seen = viewPosition(uvOf(pixel), depth), view = -normalize(seen);
     vec3 normal = texelFetch(normalBuffer, pixel, 0).xyz;
     normal = dot(normal, normal) > 0.9 ? normalize(normal) : view;

@@ -44,6 +44,20 @@ TEST(StoredDepth, HasTheStepsOfItsBits) {
     EXPECT_TRUE(std::isfinite(fixedPointDepth(1e9f)));
 }
 
+// No depth is rounded by more than half of what its format calls a step, nor are steps much larger
+// than depths need.
+TEST(StoredDepth, IsRoundedByHalfAStepAtMost) {
+    for (const Probe::StoredDepth& stored : {halfFloatDepths(), fixedPointDepths()}) {
+        float most = 0; // of half a step
+        for (float depth = 0.5f; depth < 1500; depth *= 1.0007f) {
+            const float step = depth * (stored.step.x + depth * stored.step.y);
+            most = std::max(most, std::abs(stored.of(depth) - depth) / (step / 2));
+        }
+        EXPECT_LT(most, 1.01f);
+        EXPECT_GT(most, 0.9f);
+    }
+}
+
 TEST_F(FailureScenes, HiddenFaceOccludesAsTheClosedFormSays) {
     const double found = traced(curbScene(), curbCamera(), [](const SeenPoint& point) {
         return point.position.y < 0.01f && std::abs(point.position.x + 0.25f) < 0.03f;
@@ -136,10 +150,38 @@ TEST_F(FailureScenes, StoredDepthIsWhatTechniquesRead) {
         return hbao.visibility(FailureView(built, hallCamera(), size, std::move(stored)).probe());
     };
     const Image plain = seen({});
-    EXPECT_EQ(seen([](float depth) { return depth; }).pixels, plain.pixels);
+    EXPECT_EQ(seen({[](float depth) { return depth; }, {}}).pixels, plain.pixels);
     // At one depth all is a plane that faces the camera; normals still lean, so not all is open.
-    const Image flat = seen([](float) { return 5.0f; });
+    const Image flat = seen({[](float) { return 5.0f; }, {}});
     EXPECT_NE(flat.pixels, plain.pixels);
+}
+
+// Rays start above their surface however coarse its depth: planes stay open, and a crease is as
+// dark as with 32 bits.
+TEST_F(FailureScenes, RaysKnowHowCoarseDepthIs) {
+    const FailureScene built(creaseScene());
+    const auto part = [](float low, float high) {
+        return [=](const SeenPoint& point) {
+            return between(std::max(point.position.x, point.position.y), static_cast<double>(low),
+                           static_cast<double>(high));
+        };
+    };
+    for (const char* configuration : {"rtao rays=16", "rtao_bvh rays=4"}) {
+        const TestedTechnique technique(configuration);
+        for (const double distance : {10.0, 100.0}) {
+            double crease = -1; // of 32 bits
+            for (const Probe::StoredDepth& stored :
+                 {Probe::StoredDepth(), fixedPointDepths(), halfFloatDepths()}) {
+                const FailureView view(built, creaseCamera(distance, 5.2), size, stored);
+                const Image image = technique.visibility(view.probe());
+                EXPECT_LT(meanOcclusion(image, view.select(part(1.5f, 2.2f))), 0.002)
+                    << configuration << ", " << distance << " R, step " << stored.step.x;
+                const double found = meanOcclusion(image, view.select(part(0.15f, 0.5f)));
+                crease = crease < 0 ? found : crease;
+                EXPECT_NEAR(found, crease, 0.02) << configuration << ", " << distance << " R";
+            }
+        }
+    }
 }
 
 TEST(TestedTechniques, MistakesAreNamed) {

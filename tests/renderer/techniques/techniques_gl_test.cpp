@@ -307,6 +307,7 @@ TEST_F(KnownFaults, FrameBlockHasTheSameOffsetsInBothLanguages) {
                    {"viewFromUv", offsetof(Frame, viewFromUv)},
                    {"size", offsetof(Frame, size)},
                    {"depth", offsetof(Frame, depth)},
+                   {"depthStep", offsetof(Frame, depthStep)},
                    {"seed", offsetof(Frame, seed)}};
     for (const auto& [member, offset] : members) {
         const std::string full = std::string("FrameBlock.frame.") + member;
