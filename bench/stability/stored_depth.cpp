@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace obscura {
 
@@ -23,9 +24,11 @@ float fixedPointDepth(float depth) {
     return static_cast<float>(near / (1 - std::clamp(code, 0.0, codes - 1) / codes));
 }
 
-// A code c stands for z = n / (1 - c / N), so dz = z^2 / (n N).
+// A code c stands for z = n / (1 - c / N), so dz = z^2 / (n N). Read as floats, they are rounded
+// again.
 Probe::StoredDepth fixedPointDepths() {
-    return {fixedPointDepth, {0, static_cast<float>(1 / (near * codes))}};
+    return {fixedPointDepth,
+            {std::numeric_limits<float>::epsilon(), static_cast<float>(1 / (near * codes))}};
 }
 
 } // namespace obscura
