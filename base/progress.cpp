@@ -10,16 +10,6 @@
 
 namespace obscura {
 
-namespace {
-
-std::string spell(double seconds) {
-    const int whole = static_cast<int>(seconds + 0.5);
-    return whole < 100 ? fmt::format("{} s", whole)
-                       : fmt::format("{} min {:02} s", whole / 60, whole % 60);
-}
-
-} // namespace
-
 Progress::Progress(std::string label, double total)
     : label_(std::move(label)), total_(std::max(total, 1e-9)), terminal_(::isatty(STDERR_FILENO)) {}
 
@@ -36,11 +26,11 @@ void Progress::print(double done, const std::string& note, bool last) {
     printed_ = Clock::now();
     const double elapsed = std::chrono::duration<double>(printed_ - start_).count();
     const double share = done / total_;
-    std::string time = fmt::format("{} so far", spell(elapsed));
+    std::string time = fmt::format("{} so far", durationText(elapsed));
     if (last)
-        time = fmt::format("in {}", spell(elapsed));
+        time = fmt::format("in {}", durationText(elapsed));
     else if (share >= 0.01) // earlier, rates are of starting up
-        time = fmt::format("{} left", spell(elapsed * (1 - share) / share));
+        time = fmt::format("{} left", durationText(elapsed * (1 - share) / share));
 
     constexpr int width = 24;
     const int filled = static_cast<int>(share * width);
@@ -49,6 +39,14 @@ void Progress::print(double done, const std::string& note, bool last) {
     fmt::print(stderr, "{}{:<22} [{}] {:3.0f} %  {}  {}{}", terminal_ ? "\r\x1b[K" : "", label_,
                bar, share * 100, time, note, terminal_ && !last ? "" : "\n");
     std::fflush(stderr);
+}
+
+std::string durationText(double seconds) {
+    const auto whole = static_cast<long>(seconds + 0.5);
+    if (whole < 100)
+        return fmt::format("{} s", whole);
+    return whole < 2 * 3600 ? fmt::format("{} min {:02} s", whole / 60, whole % 60)
+                            : fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
 double peakMemory() {

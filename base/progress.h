@@ -29,6 +29,9 @@ class Progress {
     Clock::time_point printed_{};
 };
 
+// "95 s", "2 min 05 s", "7 h 12 min"
+std::string durationText(double seconds);
+
 // Peak memory of this process, MiB, as Linux counts it; 0 where there is no /proc.
 double peakMemory();
 

@@ -122,14 +122,14 @@ Holder holderOf(const fs::path& claim, double now, double lease) {
     return holder;
 }
 
-nlohmann::ordered_json planJson(const std::vector<Unit>& plan) {
+nlohmann::ordered_json planJson(const std::vector<WorkUnit>& plan) {
     auto units = nlohmann::ordered_json::array();
-    for (const Unit& unit : plan)
+    for (const WorkUnit& unit : plan)
         units.push_back({{"name", unit.name}, {"group", unit.group}, {"cost", unit.cost}});
     return {{"formatVersion", 1}, {"units", units}};
 }
 
-void addPlan(const fs::path& file, std::map<std::string, Unit>& units) {
+void addPlan(const fs::path& file, std::map<std::string, WorkUnit>& units) {
     try {
         const auto root = nlohmann::json::parse(readFile(file));
         for (const auto& unit : root.at("units"))
@@ -143,8 +143,8 @@ void addPlan(const fs::path& file, std::map<std::string, Unit>& units) {
 }
 
 // Every unit that any process has planned in the folder.
-std::map<std::string, Unit> plannedUnits(const fs::path& folder) {
-    std::map<std::string, Unit> units;
+std::map<std::string, WorkUnit> plannedUnits(const fs::path& folder) {
+    std::map<std::string, WorkUnit> units;
     if (fs::is_directory(folder))
         for (const fs::directory_entry& entry : fs::directory_iterator(folder))
             if (const std::string name = entry.path().filename().string();
@@ -172,7 +172,8 @@ std::optional<double> secondsLeft(const std::vector<std::pair<double, double>>& 
     return cost > 0 && seconds > 0 ? std::optional(costLeft * seconds / cost) : std::nullopt;
 }
 
-UnitsState stateOf(const std::map<std::string, Unit>& units, const fs::path& folder, double lease) {
+UnitsState stateOf(const std::map<std::string, WorkUnit>& units, const fs::path& folder,
+                   double lease) {
     UnitsState state;
     const double now = folderNow(folder / "about");
     const Listing listing = listingOf(folder);
@@ -212,7 +213,7 @@ UnitsState unitsState(const fs::path& folder, Seconds lease) {
 
 struct Units::Implementation {
     fs::path folder; // "units" itself
-    std::vector<Unit> plan;
+    std::vector<WorkUnit> plan;
     Lease lease;
     mutable std::set<std::string> done; // as far as known
 
@@ -227,14 +228,14 @@ struct Units::Implementation {
     double now() const { return folderNow(folder / "about"); }
 
     struct Open {
-        const Unit* unit;
+        const WorkUnit* unit;
         ClaimFile last; // of a process that is gone; number 0: none
     };
 
     void tidy();
     void open(const std::string& about);
     std::vector<Open> openUnits(const std::string& group,
-                                const std::function<bool(const Unit&)>& among, bool& others);
+                                const std::function<bool(const WorkUnit&)>& among, bool& others);
     void beat(const std::stop_token& stop);
     bool claim(const std::string& name, int number);
     bool release(const std::string& name);
@@ -305,7 +306,7 @@ bool Units::Implementation::release(const std::string& name) {
     return true;
 }
 
-Units::Units(fs::path folder, std::string about, std::vector<Unit> plan, Lease lease)
+Units::Units(fs::path folder, std::string about, std::vector<WorkUnit> plan, Lease lease)
     : self_(std::make_unique<Implementation>()) {
     self_->folder = unitsFolder(folder);
     self_->plan = std::move(plan);
@@ -336,11 +337,11 @@ std::optional<std::string> Units::result(const std::string& name) const {
 // last, because that takes a file each.
 std::vector<Units::Implementation::Open>
 Units::Implementation::openUnits(const std::string& group,
-                                 const std::function<bool(const Unit&)>& among, bool& others) {
+                                 const std::function<bool(const WorkUnit&)>& among, bool& others) {
     std::vector<Open> open, claimed;
     std::map<std::string, std::size_t> workers; // by group
     const Listing listing = listingOf(folder);
-    for (const Unit& unit : plan) {
+    for (const WorkUnit& unit : plan) {
         if ((among && !among(unit)) || done.contains(unit.name))
             continue;
         const auto found = listing.find(fileNameOf(unit.name));
@@ -372,7 +373,7 @@ Units::Implementation::openUnits(const std::string& group,
 
 std::optional<std::string> Units::claimNext(const std::string& group,
                                             const std::function<void()>& waiting,
-                                            const std::function<bool(const Unit&)>& among) {
+                                            const std::function<bool(const WorkUnit&)>& among) {
     for (bool others = true;;) {
         const auto open = self_->openUnits(group, among, others);
         for (const auto& candidate : open) {
@@ -430,8 +431,8 @@ bool Units::finish(const std::string& name, const std::string& result) {
 void Units::giveBack(const std::string& name) { self_->release(name); }
 
 UnitsState Units::state() const {
-    std::map<std::string, Unit> units;
-    for (const Unit& unit : self_->plan)
+    std::map<std::string, WorkUnit> units;
+    for (const WorkUnit& unit : self_->plan)
         units[unit.name] = unit;
     return stateOf(units, self_->folder, self_->lease.count());
 }

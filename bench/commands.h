@@ -20,5 +20,6 @@ viewCommands(CLI::App& app); // rays, normals, thickness, layers, passes: one vi
 std::vector<Command> sweepCommands(CLI::App& app);     // sweep, merge, page, ablation: a study
 std::vector<Command> chooseCommands(CLI::App& app);    // choose
 std::vector<Command> stabilityCommands(CLI::App& app); // stability
+std::vector<Command> statusCommands(CLI::App& app);    // status: of work that is shared
 
 } // namespace obscura

@@ -8,7 +8,8 @@ int run(int argc, char** argv) {
     CLI::App app("obscura-bench: how fast, how right and how steady techniques are");
     app.require_subcommand(1);
     std::vector<Command> commands;
-    for (auto* add : {viewCommands, sweepCommands, chooseCommands, stabilityCommands})
+    for (auto* add :
+         {viewCommands, sweepCommands, chooseCommands, stabilityCommands, statusCommands})
         for (Command& command : add(app))
             commands.push_back(std::move(command));
     CLI11_PARSE(app, argc, argv);

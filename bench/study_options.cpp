@@ -66,14 +66,17 @@ void adjust(SweepStudy& study, const StudyOptions& options, std::size_t quickVie
 SweepPlan planOf(const StudyOptions& options, const fs::path& folder) {
     SweepPlan plan{folder, defaultCache()};
     plan.hours = options.hours;
+    plan.share.measured = options.measure == "errors"  ? Measured::errors
+                          : options.measure == "times" ? Measured::times
+                                                       : Measured::both;
     if (options.part.empty())
         return plan;
     const auto part = parsePair(options.part, '/');
     if (!part || part->first < 1 || part->first > part->second)
         throw Error(
             fmt::format("expected --part I/N with I from 1 to N, found \"{}\"", options.part));
-    plan.part = part->first;
-    plan.parts = part->second;
+    plan.share.part = part->first;
+    plan.share.parts = part->second;
     return plan;
 }
 

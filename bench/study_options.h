@@ -17,7 +17,7 @@ namespace obscura {
 
 struct StudyOptions {
     std::filesystem::path study, out, scenes;
-    std::string device, part;
+    std::string device, part, measure = "both";
     std::vector<std::string> sizes, display;
     double seconds = -1, hours = 1;
     bool quick = false;

@@ -51,8 +51,8 @@ TEST(Programs, ExplainThemselves) {
           "obscura-experiment", "obscura-experiment ledger", "obscura-analysis", "obscura-bench",
           "obscura-bench rays", "obscura-bench normals", "obscura-bench passes",
           "obscura-bench sweep", "obscura-bench merge", "obscura-bench page",
-          "obscura-bench ablation", "obscura-bench choose", "obscura-bench stability",
-          "obscura-view"}) {
+          "obscura-bench ablation", "obscura-bench status", "obscura-bench choose",
+          "obscura-bench stability", "obscura-view"}) {
         const Outcome outcome = run(std::string(program) + " --help");
         EXPECT_EQ(outcome.status, 0) << program;
         EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << program;
@@ -214,6 +214,7 @@ TEST(Programs, RefuseWrongOnes) {
         {sweep + "--size 320", "expected --size WIDTHxHEIGHT"},
         {sweep + "--display crt", "--display: expected the name of a display"},
         {sweep + "--part 3/2", "expected --part I/N"},
+        {sweep + "--measure speed", "--measure"},
         {choose + "--limit rmse", "--limit NAME=NUMBER, found \"rmse\""},
         {choose + "--limit rmsee=0.1", "did you mean \"rmse\"?"},
         {choose + "--limit rmse=0,1", "found \"rmse=0,1\""},
@@ -222,6 +223,7 @@ TEST(Programs, RefuseWrongOnes) {
         {"obscura-bench merge @/one @/two --out @/all", "one"},
         {"obscura-bench page @", "sweep.json"},
         {"obscura-bench ablation @", "sweep.json"},
+        {"obscura-bench status @", "a plan of its units, found none"},
         {"obscura-bench stability --technique 'hbao blur=yes' --test plane --out @/s",
          "blur=NUMBER"},
         {"obscura-bench stability --radius 0 --test dolly --out @/s", "expected a number from"},

@@ -7,6 +7,7 @@
 #include "bench/stability/stability.h"
 #include "bench/study_options.h"
 #include "bench/sweep/files.h"
+#include "bench/sweep/merge.h"
 #include "renderer/found_cameras.h"
 #include "renderer/reference/sight.h"
 

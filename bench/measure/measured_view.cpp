@@ -6,16 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace obscura {
-
-namespace {
-
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr PictureError unmeasured{nan, nan, nan, nan};
-
-} // namespace
 
 Settings settingsAt(const Configuration& configuration, double radius, bool matched) {
     Settings settings = settingsOf(configuration.setting, radius);
@@ -64,7 +56,7 @@ MeasuredView::MeasuredView(const Subject& subject, LazyTracer& tracer, const Swe
 }
 
 ViewErrors MeasuredView::errorsOf(const Image& visibility) {
-    ViewErrors errors{visibilityError(visibility, truth_, probe_.shown()), unmeasured, unmeasured};
+    ViewErrors errors{visibilityError(visibility, truth_, probe_.shown()), {}, {}};
     if (depthTruth_)
         errors.depth = visibilityError(visibility, *depthTruth_, probe_.shown());
     if (lit_)

@@ -104,7 +104,6 @@ void addGuard(TechniqueTime& time, const Settings& settings, int width, int heig
     for (double* value : {&time.total.median, &time.total.low, &time.total.high})
         *value += extra;
     time.passes.insert(time.passes.begin(), {"guard band", static_cast<int>(Work::prepare), extra});
-    time.bytes += share * gbufferBytes * width * height;
 }
 
 // Times one group whose textures fit into memory together.
@@ -200,6 +199,11 @@ double guardShare(const Settings& settings, int width, int height) {
     return (width + 2.0 * guard) * (height + 2.0 * guard) / (1.0 * width * height) - 1;
 }
 
+double addedBytes(const Settings& settings, int width, int height) {
+    return paddedBytes(settings, width, height) +
+           std::max(guardShare(settings, width, height), 0.0) * gbufferBytes * width * height;
+}
+
 Milliseconds summaryOf(std::vector<double> milliseconds) {
     if (milliseconds.empty())
         return {};
@@ -227,7 +231,7 @@ std::vector<TechniqueTime> timeTechniques(const Probe& probe, std::span<const Se
         for (std::size_t i = 0; i < groups[g].size(); ++i) {
             TechniqueTime& time = times[groups[g][i]] = own[i + 1];
             const Settings& settings = techniques[groups[g][i]];
-            time.bytes = paddedBytes(settings, probe.width(), probe.height());
+            time.bytes = addedBytes(settings, probe.width(), probe.height());
             addGuard(time, settings, probe.width(), probe.height());
         }
     }

@@ -50,6 +50,9 @@ std::vector<TechniqueTime> timeTechniques(const Probe& probe, std::span<const Se
 // The pixels that a guard band adds, as a share of the image's.
 double guardShare(const Settings& settings, int width, int height);
 
+// Bytes of GPU memory that a technique adds to an image of that size, its guard band included.
+double addedBytes(const Settings& settings, int width, int height);
+
 // Median and percentiles of numbers in any order; 0 without any number. Percentiles are
 // interpolated between ranks (R's type 7).
 Milliseconds summaryOf(std::vector<double> milliseconds);

@@ -167,6 +167,13 @@ AblationTable withoutErrors(AblationTable table) {
     return table;
 }
 
+bool isUntimed(const AblationTable::Column& column) {
+    return std::all_of(
+        column.milliseconds.begin(), column.milliseconds.end(), [](const auto& line) {
+            return std::all_of(line.begin(), line.end(), [](double ms) { return std::isnan(ms); });
+        });
+}
+
 // Nothing where nothing was measured.
 std::string spelt(double value) { return std::isnan(value) ? "" : format("{:.6g}", value); }
 
@@ -258,8 +265,12 @@ std::string ablationText(const AblationTable& table) {
     return text + format("Equal in every cell: {}.\n", table.settings);
 }
 
-Figure ablationFigure(const AblationTable& table, std::size_t number) {
+Figure ablationFigure(const AblationTable& all, std::size_t number) {
+    AblationTable table = all;
+    std::erase_if(table.columns, isUntimed);
     const std::size_t columns = table.columns.size();
+    if (columns == 0)
+        return {};
     std::string data = plot::block("paper", ablationLines(publishedAblation().columns.front())),
                 above, below;
     for (std::size_t c = 0; c < columns; ++c) {

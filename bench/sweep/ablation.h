@@ -45,7 +45,7 @@ std::string ablationCsv(const std::vector<AblationTable>& tables);
 std::string ablationText(const AblationTable& table);
 
 // A column for each resolution: above milliseconds, below per cent of plain, the paper's at 1080p
-// in grey.
+// in grey. Columns without times are left out; of none, no script.
 Figure ablationFigure(const AblationTable& table, std::size_t number);
 
 } // namespace obscura

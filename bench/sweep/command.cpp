@@ -4,6 +4,7 @@
 #include "bench/sweep/ablation.h"
 #include "bench/sweep/figures.h"
 #include "bench/sweep/files.h"
+#include "bench/sweep/merge.h"
 #include "bench/sweep/page.h"
 #include "bench/sweep/summary.h"
 #include "bench/sweep/sweep.h"
@@ -22,8 +23,10 @@ std::string frontText(const Sweep& sweep) {
     std::string text;
     const ErrorMeasure& measure = errorMeasures().front();
     for (const SweepGroup& group : groupsOf(sweep.rows)) {
-        text += fmt::format("{}, {}: the front\n", titleOf(group), measure.name);
         const auto points = paretoPoints(group, measure);
+        if (paretoFront(points).empty()) // nothing has both
+            continue;
+        text += fmt::format("{}, {}: the front\n", titleOf(group), measure.name);
         const auto add = [&](std::size_t i, char mark) {
             text += fmt::format("{} {:<34} {:>9.3g} ms  {:6.3f} x starcraft 16  {:.4f}\n", mark,
                                 group.points[i].configuration, group.points[i].total.median,
@@ -41,6 +44,14 @@ std::string frontText(const Sweep& sweep) {
 
 constexpr std::size_t quickViews = 1;
 
+// What a reader must know of a sweep besides its rows.
+void printCaveats(const Sweep& sweep) {
+    if (const std::string lacking = incompleteness(sweep); !lacking.empty())
+        fmt::print(stderr, "Warning: {}\n", lacking);
+    if (!sweep.machine.notes.empty())
+        fmt::print(stderr, "Warning: {}\n", sweep.machine.notes);
+}
+
 int runSweep(const StudyOptions& options) {
     SweepStudy study = readSweepStudy(options.study);
     adjust(study, options, quickViews);
@@ -51,8 +62,10 @@ int runSweep(const StudyOptions& options) {
     const Sweep result = sweep(study, {options.scenes, options.study.parent_path()},
                                planOf(options, folder), context.driver(), reporting.progress());
     reporting.end();
-    fmt::print("{} rows of {} configurations; {}\n", result.rows.size(),
-               study.match.techniques.size(), result.machine.method);
+    fmt::print("{} rows of {} configurations{}\n", result.rows.size(),
+               study.match.techniques.size(),
+               result.machine.method.empty() ? "" : "; " + result.machine.method);
+    printCaveats(result);
     fmt::print("{}", frontText(result));
     fmt::print("Page: {}\n", (folder / "sweep.html").string());
     return 0;
@@ -60,20 +73,24 @@ int runSweep(const StudyOptions& options) {
 
 void writePage(const fs::path& folder) {
     const Sweep sweep = readSweep(folder);
+    printCaveats(sweep);
     writeFile(folder / "sweep.html", sweepPage(sweep, folder));
     writeFigures(folder / "figures", sweepFigures(sweep));
     fmt::print("Page: {}\n", (folder / "sweep.html").string());
 }
 
 int writeAblation(const fs::path& folder) {
-    const std::vector<AblationTable> tables = ablationTables(groupsOf(readSweep(folder).rows));
+    const Sweep sweep = readSweep(folder);
+    printCaveats(sweep);
+    const std::vector<AblationTable> tables = ablationTables(groupsOf(sweep.rows));
     if (tables.empty())
         throw Error({folder.string(), 0, 0, {}},
                     "expected a sweep of vao_plus_plus with and without its extensions, such as "
                     "that of protocols/sweep-vao-plus-plus.toml, found none of it");
     std::vector<Figure> figures;
     for (const AblationTable& table : tables) {
-        figures.push_back(ablationFigure(table, figures.size() + 1));
+        if (Figure figure = ablationFigure(table, figures.size() + 1); !figure.script.empty())
+            figures.push_back(std::move(figure));
         fmt::print("{}", ablationText(table));
     }
     writeFile(folder / "ablation.csv", ablationCsv(tables));
@@ -91,8 +108,15 @@ std::vector<Command> sweepCommands(CLI::App& app) {
     sweeping->add_option("study", options->study, "TOML, such as protocols/sweep-builtin.toml")
         ->required();
     addStudyOptions(*sweeping, *options);
+    sweeping
+        ->add_option("--measure", options->measure,
+                     "errors, which carry over from one machine to another, times, which do not, "
+                     "or both")
+        ->check(CLI::IsMember({"errors", "times", "both"}))
+        ->capture_default_str();
     sweeping->add_option("--part", options->part,
-                         "I/N: only every Nth configuration, from the Ith");
+                         "I/N: only the Ith of N shares, into a folder of its own; without it, any "
+                         "number of processes with the same --out share the work");
 
     const auto folders = std::make_shared<std::vector<fs::path>>();
     CLI::App* merging = app.add_subcommand("merge", "one sweep of its parts");
@@ -108,9 +132,7 @@ std::vector<Command> sweepCommands(CLI::App& app) {
     return {{sweeping, [options] { return runSweep(*options); }},
             {merging,
              [options, folders] {
-                 const Sweep all = mergeSweeps(*folders, options->out);
-                 if (const std::string lacking = incompleteness(all); !lacking.empty())
-                     fmt::print(stderr, "Warning: {}\n", lacking);
+                 mergeSweeps(*folders, options->out);
                  writePage(options->out);
                  return 0;
              }},

@@ -3,7 +3,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/files.h"
-#include "renderer/techniques/technique.h"
+#include "bench/sweep/fields.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -11,8 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <type_traits>
 
 namespace obscura {
 
@@ -20,87 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int newestVersion = 3; // of the folder's files; version 1 said none
-
-// Every field with its name, once for writing and reading; Row may be const.
-
-template <typename Fields, typename Visit>
-void eachErrorField(const std::string& prefix, Fields& errors, Visit& visit) {
-    visit(prefix + "_rmse", errors.rmse);
-    visit(prefix + "_bias", errors.bias);
-    visit(prefix + "_ssim", errors.ssim);
-    visit(prefix + "_flip", errors.flip);
-}
-
-template <typename Row, typename Visit>
-void eachError(Row& row, Visit& visit) {
-    eachErrorField("full_raw", row.raw, visit);
-    eachErrorField("full_matched", row.matched, visit);
-    eachErrorField("depth_raw", row.depthRaw, visit);
-    eachErrorField("depth_matched", row.depthMatched, visit);
-    eachErrorField("lit_raw", row.litRaw, visit);
-    visit("lit_raw_jod", row.litRaw.jod);
-    eachErrorField("lit_matched", row.litMatched, visit);
-    visit("lit_matched_jod", row.litMatched.jod);
-}
-
-template <typename Row, typename Visit>
-void eachCost(Row& row, Visit& visit) {
-    visit("frames", row.frames);
-    visit("total_median_ms", row.total.median);
-    visit("total_5th_percentile_ms", row.total.low);
-    visit("total_95th_percentile_ms", row.total.high);
-    for (std::size_t i = 0; i < row.work.size(); ++i)
-        visit(workNames()[i] + "_median_ms", row.work[i]);
-    visit("gbuffer_median_ms", row.gbuffer);
-    visit("ratio_to_gbuffer", row.toGbuffer);
-    visit("ratio_to_starcraft_16", row.toStarcraft);
-    visit("starcraft_16_odd_to_even", row.starcraftRepeat);
-    visit("bytes_per_pixel", row.bytes);
-    visit("fetches_per_pixel", row.fetches);
-}
-
-template <typename Row, typename Visit>
-requires std::is_same_v<std::remove_const_t<Row>, SweepRow>
-void eachField(Row& row, Visit visit) {
-    visit("configuration", row.configuration);
-    visit("technique", row.technique);
-    visit("name", row.name);
-    visit("settings", row.settings);
-    visit("fitted", row.fitted);
-    visit("scene", row.scene);
-    visit("view", row.view);
-    visit("radius", row.radius);
-    visit("width", row.width);
-    visit("height", row.height);
-    eachCost(row, visit);
-    eachError(row, visit);
-    visit("thumbnail", row.thumbnail);
-}
-
-template <typename Row, typename Visit>
-requires std::is_same_v<std::remove_const_t<Row>, GrowthRow>
-void eachField(Row& row, Visit visit) {
-    visit("configuration", row.configuration);
-    visit("axis", row.axis);
-    visit("value", row.value);
-    visit("milliseconds", row.milliseconds);
-}
-
-template <typename Machine, typename Visit>
-requires std::is_same_v<std::remove_const_t<Machine>, SweepMachine>
-void eachField(Machine& machine, Visit visit) {
-    visit("vendor", machine.vendor);
-    visit("renderer", machine.renderer);
-    visit("glVersion", machine.glVersion);
-    visit("processor", machine.processor);
-    visit("method", machine.method);
-    visit("program", machine.program);
-    visit("study", machine.study);
-    visit("display", machine.display);
-    visit("clocks", machine.clocks);
-    visit("date", machine.date);
-}
+constexpr int newestVersion = 4; // of the folder's files; version 1 said none
 
 std::string spelt(const std::string& text) { return csvCell(text); }
 std::string spelt(int number) { return fmt::format("{}", number); }
@@ -192,7 +110,8 @@ SweepMachine readMachine(const fs::path& path) {
                                     "sweep, and reads it",
                                     newestVersion, machine.formatVersion));
         eachField(machine, [&](const std::string& name, std::string& value) {
-            if (name == "display" && machine.formatVersion < 3)
+            if ((name == "display" && machine.formatVersion < 3) ||
+                ((name == "errorsBy" || name == "notes") && machine.formatVersion < 4))
                 return;
             if (!root.contains(name) || !root[name].is_string())
                 throw Error({file, 0, 0, name},
@@ -215,58 +134,10 @@ std::string machineJson(const SweepMachine& machine) {
     return root.dump(2) + "\n";
 }
 
-// The part of a text that must be equal: of the method its name, not the times by which it was
-// chosen.
-std::string keptEqual(const std::string& name, const std::string& value) {
-    return name == "method" ? value.substr(0, value.find(':')) : value;
-}
-
-// Remembers where each thing was measured.
-class Measured {
-  public:
-    void add(const std::string& what, const fs::path& file) {
-        const auto [at, isNew] = files_.emplace(what, file);
-        if (!isNew)
-            throw Error({file.string(), 0, 0, {}},
-                        fmt::format("{} was measured already in {}", what, at->second.string()));
-    }
-
-  private:
-    std::map<std::string, fs::path> files_;
-};
-
-std::string identityOf(const SweepRow& row) {
-    return fmt::format("\"{}\" on view \"{}\" of \"{}\" at {} x {}, R {}", row.configuration,
-                       row.view, row.scene, row.width, row.height, row.radius);
-}
-
-std::string identityOf(const GrowthRow& row) {
-    return fmt::format("\"{}\" at {} {}", row.configuration, row.axis, row.value);
-}
-
 } // namespace
 
 std::string sweepCsv(const std::vector<SweepRow>& rows) { return csvOf(rows); }
 std::string growthCsv(const std::vector<GrowthRow>& rows) { return csvOf(rows); }
-
-void joinMachines(SweepMachine& all, SweepMachine part, const std::string& first,
-                  const fs::path& folder) {
-    std::map<std::string, std::string*> others;
-    eachField(part, [&](const std::string& name, std::string& value) { others[name] = &value; });
-    eachField(all, [&](const std::string& name, std::string& value) {
-        const std::string& other = *others.at(name);
-        if (keptEqual(name, value) == keptEqual(name, other))
-            return;
-        if (name != "clocks" && name != "date")
-            throw Error({(folder / "sweep.json").string(), 0, 0, name},
-                        fmt::format("expected \"{}\", as {}, found \"{}\"; rows can stand "
-                                    "in one folder only if this is the same; --out names another",
-                                    value, first, other));
-        if (!other.empty() &&
-            fmt::format(", {}, ", value).find(fmt::format(", {}, ", other)) == value.npos)
-            value += (value.empty() ? "" : ", ") + other;
-    });
-}
 
 void writeSweep(const fs::path& folder, const Sweep& sweep) {
     writeFile(folder / "sweep.csv", sweepCsv(sweep.rows));
@@ -278,44 +149,6 @@ Sweep readSweep(const fs::path& folder) {
     const SweepMachine machine = readMachine(folder / "sweep.json");
     return {machine, rowsOf<SweepRow>(folder / "sweep.csv", machine.formatVersion),
             rowsOf<GrowthRow>(folder / "growth.csv", machine.formatVersion)};
-}
-
-std::string incompleteness(const Sweep& sweep) {
-    const auto whole = static_cast<std::size_t>(sweep.machine.rows);
-    return sweep.rows.size() >= whole
-               ? ""
-               : fmt::format("{} of the study's {} rows; the others are in other parts, or were "
-                             "not measured yet",
-                             sweep.rows.size(), whole);
-}
-
-Sweep mergeSweeps(const std::vector<fs::path>& parts, const fs::path& folder) {
-    Sweep all;
-    Measured measured;
-    if (fs::exists(folder / "sweep.json"))
-        throw Error({(folder / "sweep.json").string(), 0, 0, {}},
-                    "expected a folder without a sweep, found one; --out names another");
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        Sweep part = readSweep(parts[i]);
-        if (i == 0)
-            all.machine = part.machine;
-        joinMachines(all.machine, part.machine, "in " + parts.front().string(), parts[i]);
-        for (SweepRow& row : part.rows) {
-            measured.add(identityOf(row), parts[i] / "sweep.csv");
-            if (!row.thumbnail.empty()) {
-                const std::string name = fmt::format("part-{}/{}", i + 1, row.thumbnail);
-                writeFile(folder / name, readFile(parts[i] / row.thumbnail));
-                row.thumbnail = name;
-            }
-            all.rows.push_back(std::move(row));
-        }
-        for (GrowthRow& row : part.growth) {
-            measured.add(identityOf(row), parts[i] / "growth.csv");
-            all.growth.push_back(std::move(row));
-        }
-    }
-    writeSweep(folder, all);
-    return all;
 }
 
 } // namespace obscura

@@ -67,7 +67,7 @@ std::vector<FrameRates> frameRates(const std::vector<SweepRow>& rows) {
     for (const SweepGroup& group : groupsOf(rows)) {
         std::vector<const SweepRow*> members, defaults;
         for (const SweepRow& row : typical)
-            if (row.scene == group.scene && row.width == group.width &&
+            if (row.hasTimes() && row.scene == group.scene && row.width == group.width &&
                 row.height == group.height && row.radius == group.radius) {
                 members.push_back(&row);
                 if (hasDefaultSettings(row))

@@ -1,11 +1,10 @@
 #include "bench/sweep/page.h"
 
 #include "base/files.h"
-#include "bench/sweep/files.h"
 #include "bench/sweep/page_front_script.h"
+#include "bench/sweep/page_introduction.h"
 #include "bench/sweep/page_style.h"
 #include "bench/sweep/page_tables.h"
-#include "gl/context.h"
 #include "renderer/techniques/technique.h"
 #include "report/html.h"
 #include "report/marks.h"
@@ -195,13 +194,25 @@ std::string warnings(const SweepGroup& group) {
     return html;
 }
 
+// Where no configuration has a time and an error there is neither a chart nor a front.
 std::string groupHtml(const SweepGroup& group, const std::vector<std::string>& techniques,
                       std::size_t firstId) {
+    const auto any = [&](bool (SweepRow::*has)() const) {
+        return std::any_of(group.points.begin(), group.points.end(),
+                           [&](const SweepRow& point) { return (point.*has)(); });
+    };
+    const bool timed = any(&SweepRow::hasTimes), judged = any(&SweepRow::hasErrors);
+    const std::string instead =
+        format("<p class=\"warning\">No chart, for no {} was measured on all views yet.</p>\n",
+               timed ? "error" : "time");
+    const bool drawn = timed && judged;
     return format("<section class=\"points\" id=\"g{}\">\n", firstId) +
            element("h2", titleOf(group)) + warnings(group) + "<div class=\"chart\"><div>" +
-           charts(group, techniques, firstId) + legend(group, techniques) + "</div>\n" +
-           panel(group, techniques, firstId) + "</div>\n" + frontTable(group, techniques, firstId) +
-           workLegend() + "<details><summary>All configurations by matched RMSE</summary>" +
+           (drawn ? charts(group, techniques, firstId) : instead) + legend(group, techniques) +
+           "</div>\n" + panel(group, techniques, firstId) + "</div>\n" +
+           (drawn ? frontTable(group, techniques, firstId) + workLegend() : "") +
+           format("<details{}><summary>All configurations by {}</summary>",
+                  drawn ? "" : " open=\"open\"", judged ? "matched RMSE" : "milliseconds") +
            rankingTable(group, techniques, firstId) + "</details></section>\n";
 }
 
@@ -251,71 +262,6 @@ std::string growthSection(const Sweep& sweep) {
                    charts + "</div>\n" + slopesHtml(growth, techniqueOf));
 }
 
-std::string introduction(const Sweep& sweep) {
-    const SweepMachine& machine = sweep.machine;
-    std::string html = element("h1", "Speed against accuracy");
-    html +=
-        element("p", format("Measured on {} ({}, OpenGL {}) with {}, {}. Times by {}. {}.",
-                            machine.renderer, machine.vendor, machine.glVersion, machine.processor,
-                            machine.clocks.empty() ? "clocks unknown" : "clocks " + machine.clocks,
-                            machine.method, machine.date));
-    if (!machine.display.empty())
-        html += element("p", format("JOD (just-objectionable differences) are predicted, by "
-                                    "ColorVideoVDP, for a person before this screen: {}. 10 is no "
-                                    "difference from the lit truth; at 9, 75 of 100 would prefer "
-                                    "the truth. Nobody has looked.",
-                                    machine.display));
-    html += format("<p class=\"aside hash\">{}; study {}</p>\n", escaped(machine.program),
-                   escaped(machine.study));
-    if (const std::string lacking = incompleteness(sweep); !lacking.empty())
-        html += format("<p class=\"warning\">Not the whole study: {}.</p>\n", lacking);
-    if (machine.formatVersion < SweepMachine{}.formatVersion)
-        html += format(
-            "<p class=\"aside\">Written by an earlier obscura-bench (format {}, now {}): what "
-            "it did not measure is empty.</p>\n",
-            machine.formatVersion, SweepMachine{}.formatVersion);
-    if (gl::isSoftware(machine.renderer))
-        html +=
-            "<p class=\"warning\">This renderer is software. What is fast on a processor need not "
-            "be on a GPU: neither these times nor their ratios and ranks carry over. Errors "
-            "do.</p>\n";
-    if (std::any_of(sweep.rows.begin(), sweep.rows.end(), [](const SweepRow& row) {
-            const std::string settings = " " + row.settings + " ";
-            return settings.find(" accumulate=") != std::string::npos &&
-                   settings.find(" accumulate=1 ") == std::string::npos;
-        }))
-        html +=
-            "<p class=\"warning\">Configurations with <code>accumulate</code> show the mean of so "
-            "many frames of a camera at rest, and have the time of one. Of a camera that moves "
-            "they "
-            "are worse: see the tests of stability.</p>\n";
-    return html +
-           "<p>Each mark is one configuration: its milliseconds against its error. Left and low is "
-           "better; the staircase is the Pareto front, and all in its shade is beaten by something "
-           "in both, in the lighter shade by no more than times are uncertain. Without the "
-           "techniques that are switched off, the front is that of the others. Point, tap or tab "
-           "to a mark for all its numbers.</p>\n"
-           "<details><summary>What exactly is drawn</summary><p>Milliseconds are those of the "
-           "technique's own passes: the median over views of each view's median frame. Thin bars "
-           "go from the 5th to the 95th percentile of frames, also medians over views. Where a "
-           "machine "
-           "was faster or slower for a while, times are scaled by starcraft's in the same rounds; "
-           "sweep.csv has them as they were. What took no time stands on the left border. RMSE is "
-           "the "
-           "root of the mean square over views, all other errors and predicted JOD are means over "
-           "views; bias is the "
-           "mean of its size, without its sign, which is above 0 where a technique is too dark. "
-           "Matched errors "
-           "are what remains after each technique was fitted on training views. The full reference "
-           "knows the whole scene, the depth-buffer reference only what a depth buffer of one "
-           "layer "
-           "can show, its surfaces taken to be as thick as the radius, which is a guess: a "
-           "technique "
-           "may be nearer to the full reference than it is. A faint line joins the configurations "
-           "of one technique in order of cost."
-           "</p></details>\n";
-}
-
 // Each thumbnail stands in the page once; "i<id>" shows it as often as wanted. Those of the fronts
 // come first, the others while there is room.
 struct Thumbnails {
@@ -357,7 +303,7 @@ std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
                                 std::string(sweepPageStyle) + measureStyle() +
                                     techniqueStyle(techniques.size()) + thumbnails.style,
                                 true) +
-                       shapes(techniques.size()) + introduction(sweep);
+                       shapes(techniques.size()) + sweepIntroduction(sweep);
     if (thumbnails.leftOut > 0)
         html += format("<p class=\"aside\">To keep the page small, the thumbnails of {} "
                        "configurations off every front are only in the sweep's folder.</p>\n",

@@ -33,6 +33,8 @@ std::string link(const SweepRow& point, std::size_t technique, std::size_t id) {
 }
 
 std::string interval(const Milliseconds& total) {
+    if (std::isnan(total.median))
+        return readable(total.median);
     return format("{}<br/><small>{}–{}</small>", readable(total.median), readable(total.low),
                   readable(total.high));
 }
@@ -74,6 +76,32 @@ std::string wide(const std::string& head, const std::string& body, const std::st
 std::string errorLine(const std::string& name, const PictureError& error) {
     return format("<tr><th scope=\"row\">{}</th>", name) + number(error.rmse) + number(error.bias) +
            number(error.ssim, 4) + number(error.flip) + number(error.jod) + "</tr>";
+}
+
+std::string timesOf(const SweepRow& point) {
+    if (!point.hasTimes())
+        return "<p>Not timed.</p>\n";
+    std::string work;
+    for (std::size_t i = 0; i < point.work.size(); ++i)
+        work += format("{}{} {}", i ? ", " : "", workNames()[i], readable(point.work[i]));
+    return format("<p><b>{} ms</b> in {} frames (5th to 95th percentile {} to {}; {}). {} × the "
+                  "G-buffer's {} ms, {} × starcraft with 16 samples.</p>\n{}",
+                  readable(point.total.median), point.frames, readable(point.total.low),
+                  readable(point.total.high), work, readable(point.toGbuffer),
+                  readable(point.gbuffer), readable(point.toStarcraft), workBar(point));
+}
+
+std::string errorsOf(const SweepRow& point) {
+    if (!point.hasErrors())
+        return "<p>Without errors.</p>\n";
+    return wide("<tr>" + header("error to") + numberHeader("RMSE") + numberHeader("bias") +
+                    numberHeader("SSIM") + numberHeader("FLIP") + numberHeader("predicted JOD") +
+                    "</tr>",
+                errorLine("full, raw", point.raw) + errorLine("full, matched", point.matched) +
+                    errorLine("depth buffer, raw", point.depthRaw) +
+                    errorLine("depth buffer, matched", point.depthMatched) +
+                    errorLine("lit image, raw", point.litRaw) +
+                    errorLine("lit image, matched", point.litMatched));
 }
 
 // Of each point: "f3" where it is on the front of the measure 3, "n3" where it is near.
@@ -159,28 +187,12 @@ std::string rankingTable(const SweepGroup& group, const std::vector<std::string>
 }
 
 std::string detailsOf(const SweepRow& point) {
-    std::string work;
-    for (std::size_t i = 0; i < point.work.size(); ++i)
-        work += format("{}{} {}", i ? ", " : "", workNames()[i], readable(point.work[i]));
-    return format("<p><b>{} ms</b> in {} frames ({}). {} × the G-buffer's {} ms, {} × starcraft "
-                  "with 16 samples. {} fetches and {} bytes a pixel.</p>\n{}",
-                  readable(point.total.median), point.frames,
-                  format("5th to 95th percentile {} to {}; {}", readable(point.total.low),
-                         readable(point.total.high), work),
-                  readable(point.toGbuffer), readable(point.gbuffer), readable(point.toStarcraft),
-                  readable(point.fetches), readable(point.bytes), workBar(point)) +
-           wide("<tr>" + header("error to") + numberHeader("RMSE") + numberHeader("bias") +
-                    numberHeader("SSIM") + numberHeader("FLIP") + numberHeader("predicted JOD") +
-                    "</tr>",
-                errorLine("full, raw", point.raw) + errorLine("full, matched", point.matched) +
-                    errorLine("depth buffer, raw", point.depthRaw) +
-                    errorLine("depth buffer, matched", point.depthMatched) +
-                    errorLine("lit image, raw", point.litRaw) +
-                    errorLine("lit image, matched", point.litMatched)) +
-           format("<p class=\"aside\">{}: {}. Matched, and so timed, with {}. Views: {}; radius {} "
-                  "m.</p>",
+    return timesOf(point) + errorsOf(point) +
+           format("<p class=\"aside\">{}: {}. Matched, and so timed, with {}. {} fetches and {} "
+                  "bytes a pixel. Views: {}; radius {} m.</p>",
                   escaped(point.technique), escaped(point.settings),
-                  point.fitted.empty() ? "the same" : escaped(point.fitted), escaped(point.view),
+                  point.fitted.empty() ? "the same" : escaped(point.fitted),
+                  readable(point.fetches), readable(point.bytes), escaped(point.view),
                   readable(point.radius));
 }
 

@@ -97,9 +97,9 @@ SweepRow overViews(Rows rows) {
         point.total.*part = median(rows, [&](const SweepRow& row) { return row.total.*part; });
     for (std::size_t i = 0; i < point.work.size(); ++i)
         point.work[i] = median(rows, [&](const SweepRow& row) { return row.work[i]; });
-    for (double SweepRow::*field :
-         {&SweepRow::gbuffer, &SweepRow::toGbuffer, &SweepRow::toStarcraft,
-          &SweepRow::starcraftRepeat, &SweepRow::bytes, &SweepRow::fetches})
+    for (double SweepRow::*field : std::initializer_list<double SweepRow::*>{
+             &SweepRow::gbuffer, &SweepRow::toGbuffer, &SweepRow::toStarcraft,
+             &SweepRow::starcraftRepeat, &SweepRow::bytes, &SweepRow::fetches})
         point.*field = medianOf(field);
     for (PictureError SweepRow::*error :
          {&SweepRow::raw, &SweepRow::matched, &SweepRow::depthRaw, &SweepRow::depthMatched,

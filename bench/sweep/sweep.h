@@ -1,7 +1,8 @@
 #pragma once
 
 #include "bench/sweep/row.h"
-#include "gl/timer.h"
+#include "bench/sweep/units.h"
+#include "gl/context.h"
 #include "protocols/reader/sweep.h"
 #include "renderer/render.h"
 
@@ -16,7 +17,7 @@ namespace obscura {
 struct SweepPlan {
     std::filesystem::path folder; // of results
     std::filesystem::path cache;  // of references
-    int part = 1, parts = 1;      // this run's share of the configurations
+    SweepShare share = {};        // what of the study this run measures
     double hours = 1;             // that references may take; more is an Error that says how long
 };
 
@@ -32,9 +33,10 @@ void requireMeasurable(const SweepStudy& study, double referenceSeconds, double 
 // Called now and then: how much is done, of how much (about seconds), and what is at hand.
 using SweepProgress = std::function<void(double done, double total, const std::string& note)>;
 
-// Measures what folder/sweep.csv does not have yet of the same study, driver and program; rows are
-// added to it group by group, so that an interrupted sweep goes on where it stopped. Then writes
-// growth.csv, sweep.json, sweep.html and figures/.
+// Measures what nobody has measured yet in plan.folder, which any number of processes, on any
+// machines, may do at the same time: the work is shared in units (units.h), and progress is that
+// of all. Goes on when everything is measured that `share` has, and whoever is last has written
+// sweep.csv, growth.csv, sweep.json, sweep.html and figures/. Gives what stands there.
 Sweep sweep(const SweepStudy& study, const Folders& folders, const SweepPlan& plan,
             const gl::Driver& driver, const SweepProgress& progress);
 

@@ -103,6 +103,22 @@ TEST(Ablation, NeedsMoreThanOneVariant) {
     EXPECT_THAT(ablationTables(groupsOf({vaoRow(settingsOf(8, 1, 2), 4)})), IsEmpty());
 }
 
+TEST(Ablation, IsNotDrawnWithoutTimes) {
+    std::vector<SweepRow> rows;
+    for (int v = 0; v < 4; ++v)
+        for (const int width : {1920, 3840})
+            rows.push_back(
+                vaoRow(settingsOf(8, v & 1, v & 2), width == 1920 ? std::nan("") : v + 1, width));
+    auto tables = ablationTables(groupsOf(rows));
+    ASSERT_THAT(tables, SizeIs(1));
+    EXPECT_THAT(ablationText(tables[0]), HasSubstr("1920×1080"));
+    const std::string script = ablationFigure(tables[0], 1).script;
+    EXPECT_THAT(script, HasSubstr("3840×2160"));
+    EXPECT_THAT(script, testing::Not(HasSubstr("1920×1080")));
+    tables[0].columns.resize(1);
+    EXPECT_EQ(ablationFigure(tables[0], 1).script, "");
+}
+
 TEST(Ablation, IsWrittenWithThePapersOwnCells) {
     const auto tables =
         ablationTables(groupsOf({vaoRow(settingsOf(8, 0, 0), 4), vaoRow(settingsOf(8, 1, 0), 3)}));

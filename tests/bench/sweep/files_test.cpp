@@ -90,10 +90,11 @@ TEST_F(SweepFiles, HaveAColumnForEachFieldAndAnEmptyCellForNaN) {
     EXPECT_EQ(names.size(), 10u + 14 + 6 * 4 + 2 + 1);
     EXPECT_EQ(cell("configuration"), "hbao");
     EXPECT_EQ(cell("full_raw_rmse"), "");
-    EXPECT_EQ(cell("lit_matched_flip"), "0");
+    EXPECT_EQ(cell("frames"), "0");
+    EXPECT_EQ(cell("bytes_per_pixel"), "0");
     EXPECT_EQ(cell("lit_raw_jod"), "");
     EXPECT_EQ(cell("total_95th_percentile_ms"), "1.5");
-    EXPECT_EQ(cell("prepare_median_ms"), "0");
+    EXPECT_EQ(cell("prepare_median_ms"), "");
 }
 
 TEST_F(SweepFiles, NameThePlaceOfAFault) {
@@ -108,8 +109,8 @@ TEST_F(SweepFiles, NameThePlaceOfAFault) {
     EXPECT_THAT(errorAfter("sweep.json", "\"vendor\"", "\"seller\""),
                 HasSubstr("s/sweep.json: vendor: expected a text of this name, found none"));
     EXPECT_THAT(errorAfter("sweep.json", ",", ";"), HasSubstr("line 2, column"));
-    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 3", "\"formatVersion\": 4"),
-                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 3, found 4; a later"));
+    EXPECT_THAT(errorAfter("sweep.json", "\"formatVersion\": 4", "\"formatVersion\": 5"),
+                HasSubstr("s/sweep.json: formatVersion: expected 1 ... 4, found 5; a later"));
 }
 
 // Takes a column, the last but one, out of every line.
@@ -128,7 +129,7 @@ TEST_F(SweepFiles, OfAnEarlierVersionMayLackColumns) {
     EXPECT_THAT(test::errorOf([&] { readSweep(folder_ / "s"); }),
                 HasSubstr("expected column \"lit_matched_jod\", found \"thumbnail\""));
     std::string json = readFile(folder_ / "s/sweep.json");
-    const std::string version = "  \"formatVersion\": 3,\n";
+    const std::string version = "  \"formatVersion\": 4,\n";
     writeFile(folder_ / "s/sweep.json", json.erase(json.find(version), version.size()));
     const Sweep read = readSweep(folder_ / "s");
     EXPECT_EQ(read.machine.formatVersion, 1);
@@ -144,80 +145,6 @@ TEST_F(SweepFiles, RefuseALineThatWasCutOff) {
     text.pop_back();
     writeFile(folder_ / "s/sweep.csv", text);
     EXPECT_THAT(test::errorOf([&] { readSweep(folder_ / "s"); }), HasSubstr("it was cut off"));
-}
-
-// The small sweep in two parts, with a thumbnail of the same name in each.
-class SweepParts : public SweepFiles {
-  protected:
-    SweepParts() {
-        const Sweep all = test::smallSweep();
-        for (std::size_t part = 0; part < 2; ++part) {
-            Sweep& sweep = part ? second_ : first_;
-            sweep.machine = all.machine;
-            for (std::size_t i = part; i < all.rows.size(); i += 2)
-                sweep.rows.push_back(all.rows[i]);
-            sweep.rows[0].thumbnail = "thumbnails/0.png";
-            writeFile(folder_ / (part ? "b" : "a") / "thumbnails/0.png", part ? "two" : "one");
-        }
-        first_.growth = all.growth;
-    }
-
-    Sweep merge() {
-        writeSweep(folder_ / "a", first_);
-        writeSweep(folder_ / "b", second_);
-        return mergeSweeps({folder_ / "a", folder_ / "b"}, folder_ / "all");
-    }
-    std::string mergeError() {
-        return withoutFolder(test::errorOf([&] { merge(); }));
-    }
-
-    Sweep first_, second_;
-};
-
-TEST_F(SweepParts, BecomeOneWithTheirThumbnails) {
-    second_.machine.date = "tomorrow";
-    const Sweep all = merge();
-    EXPECT_EQ(all.rows.size(), test::smallSweep().rows.size());
-    EXPECT_EQ(all.growth.size(), first_.growth.size());
-    EXPECT_EQ(all.machine.date, first_.machine.date + ", tomorrow");
-    EXPECT_EQ(sweepCsv(readSweep(folder_ / "all").rows), sweepCsv(all.rows));
-    EXPECT_EQ(readFile(folder_ / "all" / all.rows[0].thumbnail), "one");
-    EXPECT_EQ(readFile(folder_ / "all" / all.rows[first_.rows.size()].thumbnail), "two");
-}
-
-TEST_F(SweepParts, SayHowMuchIsMissing) {
-    const auto rows = static_cast<int>(first_.rows.size() + second_.rows.size());
-    first_.machine.rows = second_.machine.rows = rows;
-    EXPECT_EQ(incompleteness(merge()), "");
-    EXPECT_EQ(incompleteness(readSweep(folder_ / "a")),
-              fmt::format("{} of the study's {} rows; the others are in other parts, or were not "
-                          "measured yet",
-                          first_.rows.size(), rows));
-    EXPECT_THAT(mergeError(), HasSubstr("all/sweep.json: expected a folder without a sweep"));
-}
-
-TEST_F(SweepParts, MayNotMeasureTheSameTwice) {
-    second_.rows[1] = first_.rows[0];
-    second_.rows[1].thumbnail = "";
-    EXPECT_EQ(mergeError(),
-              "b/sweep.csv: \"hbao samples=2 blur=1\" on view \"view 1\" of \"atrium\" at "
-              "640 x 360, R 0.5 was measured already in a/sweep.csv");
-    second_.rows.pop_back();
-    second_.rows.resize(1);
-    second_.growth = {first_.growth[0]};
-    EXPECT_THAT(mergeError(), HasSubstr("was measured already in a/growth.csv"));
-}
-
-TEST_F(SweepParts, MustBeOfOneMachineAndStudy) {
-    second_.machine.renderer = "a GPU";
-    EXPECT_THAT(mergeError(), testing::StartsWith("b/sweep.json: renderer: expected \"llvmpipe"));
-    second_.machine.renderer = first_.machine.renderer;
-    first_.machine.method = "glFinish: a load takes 28.3 ms";
-    second_.machine.method = "time stamps: a load takes 28.4 ms";
-    EXPECT_THAT(mergeError(), HasSubstr("b/sweep.json: method: expected \"glFinish"));
-    second_.machine.method = "glFinish: a load takes 28.4 ms";
-    second_.machine.study = "another";
-    EXPECT_THAT(mergeError(), HasSubstr("b/sweep.json: study: expected \"aaaa"));
 }
 
 } // namespace

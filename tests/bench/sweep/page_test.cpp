@@ -1,4 +1,5 @@
 #include "base/files.h"
+#include "bench/sweep/figures.h"
 #include "bench/sweep/page.h"
 #include "bench/sweep/summary.h"
 #include "report/html.h"
@@ -58,6 +59,42 @@ TEST(SweepPage, SaysWhatIsMissing) {
     const std::string page = sweepPage(sweep, ".");
     EXPECT_THAT(page, HasSubstr("on fewer views: " + sweep.rows.back().configuration + ".</p>"));
     EXPECT_THAT(page, HasSubstr("1 without this error are left out."));
+}
+
+// Errors of one machine come first, times perhaps days later, or the other way round.
+TEST(SweepPage, DoesWithoutTimesAndWithoutErrors) {
+    Sweep untimed = test::smallSweep();
+    static_cast<TimedOn&>(untimed.machine) = {};
+    untimed.machine.errorsBy = "a <GPU>";
+    untimed.growth.clear();
+    for (SweepRow& row : untimed.rows)
+        static_cast<SweepTimes&>(row) = {};
+    std::string page = sweepPage(untimed, ".");
+    EXPECT_EQ(test::faultOfXml(page), "");
+    EXPECT_THAT(page, HasSubstr("Nothing was timed yet."));
+    EXPECT_THAT(page, HasSubstr("Errors are of pictures by a &lt;GPU&gt;"));
+    EXPECT_THAT(page, HasSubstr("rows have no times, which obscura-bench sweep STUDY --measure "
+                                "times adds"));
+    EXPECT_THAT(page, HasSubstr("No chart, for no time was measured"));
+    EXPECT_THAT(page, HasSubstr("Not timed."));
+    EXPECT_THAT(page, Not(HasSubstr("Without errors.")));
+    EXPECT_THAT(page, Not(HasSubstr("<a class=\"mark")));
+    EXPECT_THAT(page, Not(HasSubstr("FPS")));
+    EXPECT_EQ(count(page, "<article id=\"p"), untimed.rows.size() / 2);
+    EXPECT_THAT(sweepFigures(untimed), testing::IsEmpty());
+
+    Sweep unjudged = test::smallSweep();
+    for (SweepRow& row : unjudged.rows)
+        static_cast<SweepErrors&>(row) = {};
+    unjudged.machine.notes = "3 rows were timed on another kind of machine (<x>)";
+    page = sweepPage(unjudged, ".");
+    EXPECT_EQ(test::faultOfXml(page), "");
+    EXPECT_THAT(page, HasSubstr("rows have no errors"));
+    EXPECT_THAT(page, HasSubstr("3 rows were timed on another kind of machine (&lt;x&gt;)"));
+    EXPECT_THAT(page, HasSubstr("No chart, for no error was measured"));
+    EXPECT_THAT(page, HasSubstr("Without errors."));
+    EXPECT_THAT(page, Not(HasSubstr("Not timed.")));
+    EXPECT_EQ(sweepFigures(unjudged).size(), 1u); // how cost grows
 }
 
 TEST(SweepPage, WarnsOfASoftwareRenderer) {

@@ -107,17 +107,16 @@ inline SweepRow sampleRow(const SampleConfiguration& configuration, const std::s
 
 inline Sweep sampleSweep() {
     Sweep sweep;
-    sweep.machine = {
-        "Mesa",
-        "llvmpipe (LLVM 15.0.6, 256 bits)",
-        "4.5 (Core Profile) Mesa 22.3.6",
-        "Intel(R) Xeon(R), 2 cores",
-        "2.1 GHz",
-        "glFinish and steady clock, because this driver's timer queries are not honest",
-        "obscura-bench 0.1.0 (994ab97d1a2b)",
-        std::string(64, 'a'),
-        "2026-11-22T06:21:00Z",
-        ""};
+    sweep.machine.vendor = "Mesa";
+    sweep.machine.renderer = "llvmpipe (LLVM 15.0.6, 256 bits)";
+    sweep.machine.glVersion = "4.5 (Core Profile) Mesa 22.3.6";
+    sweep.machine.processor = "Intel(R) Xeon(R), 2 cores";
+    sweep.machine.method =
+        "glFinish and steady clock, because this driver's timer queries are not honest";
+    sweep.machine.clocks = "2.1 GHz";
+    sweep.machine.date = "2026-11-22T06:21:00Z";
+    sweep.machine.program = "obscura-bench 0.1.0 (994ab97d1a2b)";
+    sweep.machine.study = std::string(64, 'a');
     for (const char* scene : {"atrium", "sponza/Sponza.gltf"})
         for (const auto& [width, height] : {std::pair(640, 360), std::pair(1920, 1080)})
             for (const SampleConfiguration& configuration : sampleConfigurations())

@@ -49,6 +49,7 @@ TEST(OverViews, TakesMediansOfTimesAndRootMeanSquaresOfRmse) {
 
 TEST(OverViews, DoesNotHideAViewThatWasNotMeasured) {
     std::vector<SweepRow> rows = {rowOf("hbao", "a", 1), rowOf("hbao", "b", 2)};
+    rows[0].litRaw = rows[1].litRaw = {0.1, 0, 1, 0.1};
     rows[1].litRaw.flip = std::nan("");
     rows[0].toStarcraft = std::nan("");
     const SweepRow point = overViews(rows);
