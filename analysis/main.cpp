@@ -14,8 +14,9 @@
 #include "analysis/scales/trial_findings.h"
 #include "analysis/table.h"
 #include "base/files.h"
-#include "base/version.h"
+#include "base/program.h"
 #include "protocols/reader/protocol.h"
+#include "protocols/reader/protocol_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -41,7 +42,6 @@ const std::map<std::string, SimulatedRows> simulatedRows = {{"refuse", Simulated
                                                             {"include", SimulatedRows::include}};
 
 void declare(CLI::App& app, Options& options) {
-    app.set_version_flag("--version", fmt::format("{} ({})", version(), commit()));
     auto* data = app.add_option("DATA", options.data,
                                 "A study's folder (participant_data/<study>), or CSV files")
                      ->option_text(" ");
@@ -54,10 +54,9 @@ void declare(CLI::App& app, Options& options) {
                                    "of conditions, adds the contact sheet to the report, and "
                                    "checks that these images were shown")
                         ->option_text("DIR");
-    app.add_option("--protocol", options.protocol,
-                   "Protocol whose [[claims]] are tested where the study's folder keeps no design "
-                   "with claims")
-        ->option_text("FILE");
+    takesProtocol(app.add_option("--protocol", options.protocol,
+                                 "Protocol whose [[claims]] are tested where the study's folder "
+                                 "keeps no design with claims"));
     counts->excludes(data)->excludes(stimuli);
     app.add_option("--out", options.out, "Folder for report.html and the tables")
         ->option_text("DIR=report");
@@ -134,8 +133,7 @@ void printFindings(const Findings& findings) {
         fmt::print("\n{}", scalesText(findings.scales.all));
 }
 
-int analyse(int argc, char** argv) {
-    CLI::App app("Statistics and a report from the answers of a study.", "obscura-analysis");
+int analyse(CLI::App& app, int argc, char** argv) {
     Options options;
     declare(app, options);
     declareRules(app, options.rules);
@@ -149,7 +147,7 @@ int analyse(int argc, char** argv) {
     checking->add_option("DIR", golden, "Folder with golden_values.csv and the data files it is of")
         ->required()
         ->option_text(" ");
-    CLI11_PARSE(app, argc, argv);
+    app.parse(argc, argv);
     if (exporting->parsed()) {
         exportStudy(exported);
         return 0;
@@ -205,5 +203,7 @@ int analyse(int argc, char** argv) {
 } // namespace obscura
 
 int main(int argc, char** argv) {
-    return obscura::runProgram("obscura-analysis", obscura::analyse, argc, argv);
+    return obscura::runProgram("obscura-analysis",
+                               "statistics and a report from the answers of a study",
+                               obscura::analyse, argc, argv);
 }

@@ -1,6 +1,6 @@
 #include "experiment/command_line.h"
 
-#include "base/version.h"
+#include "protocols/reader/protocol_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -65,8 +65,7 @@ void declareTiming(CLI::App& app, Arguments& arguments) {
 } // namespace
 
 void declare(CLI::App& app, Arguments& arguments) {
-    app.set_version_flag("--version", fmt::format("{} ({})", version(), commit()));
-    app.add_option("--protocol", arguments.protocol, "The study: a TOML file")->type_name("FILE");
+    takesProtocol(app.add_option("--protocol", arguments.protocol, "The study: a TOML file"));
     app.add_option("--stimuli", arguments.stimuli, "The folder that obscura-stimuli wrote for it")
         ->type_name("DIR");
     app.add_option("--data", arguments.data, "Where answers go; each study gets a folder in it")

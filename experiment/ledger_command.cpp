@@ -4,6 +4,7 @@
 #include "experiment/continuity.h"
 #include "experiment/data_folder.h"
 #include "experiment/ledger.h"
+#include "protocols/reader/protocol_argument.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -47,8 +48,7 @@ bool giveBack(Ledger& ledger, const LedgerCommand& command) {
 void declareLedger(CLI::App& app, LedgerCommand& command) {
     CLI::App* ledger = app.add_subcommand(
         "ledger", "List who has which slot of the ordering scheme, or give a slot back");
-    ledger->add_option("--protocol", command.protocol, "The study: a TOML file")
-        ->type_name("FILE")
+    takesProtocol(ledger->add_option("--protocol", command.protocol, "The study: a TOML file"))
         ->required();
     ledger->add_option("--data", command.data, "The data folder")
         ->type_name("DIR")

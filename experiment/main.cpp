@@ -1,6 +1,7 @@
 #include "base/arguments.h"
 #include "base/error.h"
 #include "base/files.h"
+#include "base/program.h"
 #include "base/progress.h"
 #include "experiment/broken_session.h"
 #include "experiment/calibrate.h"
@@ -284,13 +285,10 @@ int timing(const Arguments& arguments) {
                          arguments.timing);
 }
 
-int run(int argc, char** argv) {
-    CLI::App app("Shows a study's image pairs to one participant, full screen, and records the "
-                 "answers. Also runs simulated participants.",
-                 "obscura-experiment");
+int run(CLI::App& app, int argc, char** argv) {
     Arguments arguments;
     declare(app, arguments);
-    CLI11_PARSE(app, argc, argv);
+    app.parse(argc, argv);
     arguments.simulate = app.count("--simulate") > 0;
     for (const CLI::App* each : {&app, app.get_subcommand("timing"), app.get_subcommand("card"),
                                  app.get_subcommand("calibrate")})
@@ -335,5 +333,8 @@ int run(int argc, char** argv) {
 } // namespace obscura
 
 int main(int argc, char** argv) {
-    return obscura::runProgram("obscura-experiment", obscura::run, argc, argv);
+    return obscura::runProgram(
+        "obscura-experiment",
+        "shows a study to one participant and records the answers; simulates participants",
+        obscura::run, argc, argv);
 }

@@ -1,5 +1,7 @@
 #include "base/arguments.h"
+#include "base/program.h"
 #include "base/progress.h"
+#include "protocols/reader/protocol_argument.h"
 #include "protocols/reader/study_text.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/compare.h"
@@ -233,11 +235,10 @@ int traceReference(const Options& options) {
     return 0;
 }
 
-int run(int argc, char** argv) {
+int run(CLI::App& app, int argc, char** argv) {
     Options options;
     const char* scenes = std::getenv("OBSCURA_SCENES");
     options.scenes = scenes ? scenes : ".";
-    CLI::App app("obscura-render: one image, or what there is to render with");
     app.add_flag("--devices", options.devices, "list the devices that can render, and stop");
     app.add_flag("--list", options.list, "list the techniques, and stop");
     app.add_option("--describe", options.describe, "print a technique's settings, and stop");
@@ -281,7 +282,8 @@ int run(int argc, char** argv) {
         ->check(CLI::IsMember(normalsNames()))
         ->capture_default_str();
     app.add_option("--seed", options.seed)->capture_default_str();
-    app.add_option("--protocol", options.protocol, "take everything from a protocol's condition")
+    takesProtocol(app.add_option("--protocol", options.protocol,
+                                 "take everything from a protocol's condition"))
         ->excludes("--frame");
     app.add_option("--condition", options.condition, "its id")->needs("--protocol");
     app.add_option("--member", options.member, "0 for a, 1 for b")->check(CLI::Range(0, 1));
@@ -301,7 +303,7 @@ int run(int argc, char** argv) {
     app.add_option("--cache", options.cache,
                    "folder that keeps references; default OBSCURA_CACHE, else ~/.cache/obscura");
     const std::function<int()> compare = addCompare(app);
-    CLI11_PARSE(app, argc, argv);
+    app.parse(argc, argv);
     if (app.got_subcommand("compare"))
         return compare();
     if (options.devices)
@@ -319,4 +321,7 @@ int run(int argc, char** argv) {
 
 } // namespace
 
-int main(int argc, char** argv) { return obscura::runProgram("obscura-render", run, argc, argv); }
+int main(int argc, char** argv) {
+    return obscura::runProgram("obscura-render", "one image, or what there is to render with", run,
+                               argc, argv);
+}

@@ -1,7 +1,9 @@
 #include "base/arguments.h"
+#include "base/program.h"
 #include "base/progress.h"
 #include "matching/match.h"
 #include "matching/match_files.h"
+#include "protocols/reader/protocol_argument.h"
 #include "renderer/reference/reference_cache.h"
 #include "stimuli/generate.h"
 
@@ -101,7 +103,7 @@ int runMatch(const Options& options, double radius) {
     return 0;
 }
 
-int run(int argc, char** argv) {
+int run(CLI::App& app, int argc, char** argv) {
     Options options;
     fs::path &protocolPath = options.file, &out = options.out;
     std::string& device = options.device;
@@ -110,17 +112,17 @@ int run(int argc, char** argv) {
     Folders& folders = options.folders;
     bool layers = false, check = false, verifyOnly = false;
     double radius = 0;
-    CLI::App app("obscura-stimuli: makes the image pairs of a protocol, or matches techniques");
     CLI::App* matching = app.add_subcommand(
         "match", "fit techniques to a reference and measure their errors on other views");
-    matching->add_option("study", options.file, "techniques and views, TOML")->required();
+    takesProtocol(matching->add_option("study", options.file, "techniques and views, TOML"))
+        ->required();
     matching->add_option("--out", out, "result folder; default match-NAME");
     matching->add_option("--scenes", folders.scenes,
                          "folder of glTF scenes; default OBSCURA_SCENES");
     matching->add_option("--device", device, "render with this device of obscura-render --devices");
     matching->add_option("--radius", radius, "only this one of the study's radii, metres")
         ->check(numberFrom(1e-4, 1e4));
-    app.add_option("protocol", protocolPath, "study, TOML");
+    takesProtocol(app.add_option("protocol", protocolPath, "study, TOML"));
     app.add_option("--out", out, "stimulus folder; default stimuli-NAME");
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
     app.add_option("--device", device, "render with this device of obscura-render --devices");
@@ -137,7 +139,7 @@ int run(int argc, char** argv) {
         if (!matching->parsed() && protocolPath.empty())
             throw CLI::RequiredError("protocol");
     });
-    CLI11_PARSE(app, argc, argv);
+    app.parse(argc, argv);
     if (matching->parsed())
         return runMatch(options, radius);
 
@@ -176,4 +178,7 @@ int run(int argc, char** argv) {
 
 } // namespace
 
-int main(int argc, char** argv) { return obscura::runProgram("obscura-stimuli", run, argc, argv); }
+int main(int argc, char** argv) {
+    return obscura::runProgram(
+        "obscura-stimuli", "makes the images of a study, or matches techniques", run, argc, argv);
+}

@@ -35,6 +35,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("image", {"base"});
     room("report", {"base"});
     room("protocols", {"base"});
+    room("entry", {"protocols"});
     room("metrics", {"image", "protocols"});
     room("renderer/scene", {"image", "protocols"});
     room("renderer/builtin", {"renderer/scene"});

@@ -4,6 +4,7 @@
 #include "base/arguments.h"
 #include "base/files.h"
 #include "base/process.h"
+#include "base/program.h"
 #include "base/progress.h"
 
 #include "validity/tallying.h"
@@ -35,9 +36,7 @@ std::map<std::string, double> plannedPower(const World& world, int studies) {
     return planned;
 }
 
-int run(int argc, char** argv) {
-    CLI::App app("Simulated studies with known answers, through the presenter and the analysis.",
-                 "obscura-validity");
+int run(CLI::App& app, int argc, char** argv) {
     int studies = 10000, threads = 0;
     std::uint64_t seed = 1;
     fs::path out = "validity.md", folder = "/dev/shm";
@@ -50,7 +49,7 @@ int run(int argc, char** argv) {
     app.add_option("--folder", folder,
                    "Where each study's CSV lies while it is read, best in memory")
         ->option_text("DIR=/dev/shm");
-    CLI11_PARSE(app, argc, argv);
+    app.parse(argc, argv);
 
     folder /= fmt::format("obscura-validity.{}", ProcessId::current().text());
     fs::create_directories(folder);
@@ -76,5 +75,7 @@ int run(int argc, char** argv) {
 } // namespace obscura
 
 int main(int argc, char** argv) {
-    return obscura::runProgram("obscura-validity", obscura::run, argc, argv);
+    return obscura::runProgram(
+        "obscura-validity", "simulated studies with known answers, through presenter and analysis",
+        obscura::run, argc, argv);
 }

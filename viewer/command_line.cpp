@@ -3,6 +3,7 @@
 #include "base/arguments.h"
 #include "base/error.h"
 #include "protocols/reader/protocol.h"
+#include "protocols/reader/protocol_argument.h"
 #include "renderer/builtin/builtin.h"
 #include "renderer/levels.h"
 #include "viewer/technique_words.h"
@@ -197,8 +198,8 @@ void addWhat(CLI::App& app, Options& options) {
     app.add_option("scene", options.scene,
                    "glTF file, here or in the scenes folder, or a built-in scene; default atrium");
     app.add_option("--scenes", line.scenes, "scenes folder; default OBSCURA_SCENES");
-    app.add_option("--protocol", line.protocol,
-                   "a study: its scene, camera, light and techniques are shown");
+    takesProtocol(app.add_option("--protocol", line.protocol,
+                                 "a study: its scene, camera, light and techniques are shown"));
     app.add_option("--condition", options.condition, "of the protocol; default its first")
         ->needs("--protocol");
     app.add_option(
@@ -277,20 +278,15 @@ const std::vector<std::string>& tabNames() {
     return names;
 }
 
-Parsed parseCommandLine(int argc, char** argv) {
+CommandLine parseCommandLine(CLI::App& app, int argc, char** argv) {
     Options options;
     const char* scenes = std::getenv("OBSCURA_SCENES");
     options.line.scenes = scenes ? scenes : ".";
-    CLI::App app("obscura-view: see, compare and tune ambient occlusion, and take it to a study");
     addWhat(app, options);
     addWindow(app, options);
     addTest(app, options);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& error) {
-        return {{}, app.exit(error)};
-    }
-    return {resolved(options), 0};
+    app.parse(argc, argv);
+    return resolved(options);
 }
 
 } // namespace obscura

@@ -10,6 +10,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace obscura {
 
 // What obscura-view is started with: what is to be seen, and what is to be done with it. A protocol
@@ -52,11 +56,7 @@ struct CommandLine {
 const std::vector<std::string>& tabNames();
 
 // Reads the options and the protocol; loads no scene. An Error says what is wrong; --help and
-// mistakes of spelling are CLI11's, which end the program (their exit status comes with nothing).
-struct Parsed {
-    std::optional<CommandLine> line;
-    int status = 0;
-};
-Parsed parseCommandLine(int argc, char** argv);
+// mistakes of spelling end the program (base/program.h).
+CommandLine parseCommandLine(CLI::App& app, int argc, char** argv);
 
 } // namespace obscura

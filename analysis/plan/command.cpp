@@ -4,6 +4,7 @@
 #include "analysis/plan/preregistration.h"
 #include "base/files.h"
 #include "base/progress.h"
+#include "protocols/reader/protocol_argument.h"
 #include "protocols/reader/stimuli.h"
 
 #include <fmt/chrono.h>
@@ -18,7 +19,7 @@ CLI::App* declarePlan(CLI::App& app, PlanCommand& command) {
     CLI::App* plan = app.add_subcommand(
         "plan", "Before a study: what it can find, how many people it takes, a preregistration");
     PlanOptions& options = command.options;
-    plan->add_option("PROTOCOL", command.protocol, "The study's protocol")
+    takesProtocol(plan->add_option("PROTOCOL", command.protocol, "The study's protocol"))
         ->required()
         ->option_text(" ");
     plan->add_option("--participants", options.participants,

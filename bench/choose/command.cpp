@@ -8,6 +8,7 @@
 #include "bench/study_options.h"
 #include "bench/sweep/files.h"
 #include "bench/sweep/merge.h"
+#include "protocols/reader/protocol_argument.h"
 #include "renderer/found_cameras.h"
 #include "renderer/reference/sight.h"
 
@@ -150,9 +151,8 @@ std::vector<Command> chooseCommands(CLI::App& app) {
         "the cheapest technique that is good enough for a scene, or the best within a time");
     const auto options = std::make_shared<ChooseOptions>();
     StudyOptions& study = options->study;
-    study.study = fs::path(OBSCURA_PROTOCOLS) / "sweep-builtin.toml";
-    choosing->add_option("study", study.study, "TOML of candidates and views")
-        ->capture_default_str();
+    takesProtocol(choosing->add_option("study", study.study, "candidates and views, TOML"))
+        ->default_val("sweep-builtin");
     choosing->add_option("--scene", options->scene,
                          "glTF file or built-in scene, seen from cameras found for it");
     choosing

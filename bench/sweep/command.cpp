@@ -8,6 +8,7 @@
 #include "bench/sweep/page.h"
 #include "bench/sweep/summary.h"
 #include "bench/sweep/sweep.h"
+#include "protocols/reader/protocol_argument.h"
 
 #include <fmt/format.h>
 
@@ -105,7 +106,7 @@ std::vector<Command> sweepCommands(CLI::App& app) {
     const auto options = std::make_shared<StudyOptions>();
     CLI::App* sweeping = app.add_subcommand(
         "sweep", "speed and accuracy of a study's techniques in all their settings");
-    sweeping->add_option("study", options->study, "TOML, such as protocols/sweep-builtin.toml")
+    takesProtocol(sweeping->add_option("study", options->study, "TOML, such as sweep-builtin"))
         ->required();
     addStudyOptions(*sweeping, *options);
     sweeping

@@ -1,6 +1,7 @@
 #include "protocols/reader/languages.h"
 
 #include "base/files.h"
+#include "base/shipped.h"
 #include "protocols/reader/study_parts.h"
 
 #include <fmt/format.h>
@@ -44,7 +45,8 @@ void checkTag(const std::string& tag, const Place& place) {
 // "de-AT". "" where the program has none.
 std::string ownTexts(std::string tag) {
     for (; !tag.empty(); tag.resize(tag.find_last_of('-') == tag.npos ? 0 : tag.find_last_of('-')))
-        for (const auto& entry : std::filesystem::directory_iterator(OBSCURA_LANGUAGES))
+        for (const auto& entry :
+             std::filesystem::directory_iterator(shipped("protocols/languages")))
             if (sameLanguage(entry.path().stem().string(), tag))
                 return entry.path().string();
     return "";

@@ -1,12 +1,13 @@
 #include "renderer/frame/gbuffer.h"
 
+#include "base/shipped.h"
+
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 namespace obscura {
@@ -434,10 +435,7 @@ void GBufferPass::peel(const GpuScene& scene, const Frame& frame, const gl::Text
     peel_->draw(scene, frame.clipFromView * frame.viewFromWorld, true, state, separation);
 }
 
-std::filesystem::path shaderFolder() {
-    const char* folder = std::getenv("OBSCURA_SHADERS");
-    return folder ? folder : OBSCURA_SHADERS;
-}
+std::filesystem::path shaderFolder() { return shipped("shaders"); }
 
 gl::ShaderText shaderText(const std::string& name) {
     gl::ShaderText text;

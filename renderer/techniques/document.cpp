@@ -1,6 +1,7 @@
 #include "renderer/techniques/document.h"
 
 #include "base/files.h"
+#include "base/shipped.h"
 #include "renderer/techniques/fetches.h"
 
 #include <fmt/format.h>
@@ -99,7 +100,7 @@ std::string_view spell(Unit unit) {
 }
 
 std::string techniquesDocument() {
-    std::string text = readFile(OBSCURA_DOCS "/techniques.in.md");
+    std::string text = readFile(shipped("techniques.in.md"));
     for (const Technique& technique : techniques())
         text += rowOf(technique);
     return text;

@@ -4,6 +4,7 @@
 #include "viewer/technique_words.h"
 #include "viewer/test_results.h"
 
+#include <CLI/CLI.hpp>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -107,7 +108,8 @@ CommandLine parsed(std::vector<std::string> words) {
     std::vector<char*> arguments;
     for (std::string& word : words)
         arguments.push_back(word.data());
-    return parseCommandLine(static_cast<int>(arguments.size()), arguments.data()).line.value();
+    CLI::App app;
+    return parseCommandLine(app, static_cast<int>(arguments.size()), arguments.data());
 }
 
 std::vector<std::string> namesOf(const std::vector<TechniqueSetting>& techniques) {
