@@ -111,9 +111,10 @@ inline float ofHalf(std::uint32_t half) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) | (half & 0x8000u) << 16);
 }
 
-// A ray starts 2 % of a pixel's width above the surface, which is more than what rasterisers snap
-// corners to (1/256), towards the camera and along the normal: so it starts before the face, and
-// one that a tilted normal sends below the face meets that and is blocked. A depth that was rounded
+// A ray starts .8 % of a pixel's width above the surface, twice what rasterisers snap corners to
+// (1/256), towards the camera and along the normal: so it starts before the face, and one that a
+// tilted normal sends below the face meets that and is blocked. From higher up it would pass over
+// faces that are narrower than a pixel. A depth that was rounded
 // may lie half a step behind the surface; as much nearer to the camera, it does not.
 #if defined(__x86_64__)
 __attribute__((target_clones("avx2", "default")))
@@ -145,7 +146,7 @@ void locate(const Picture& __restrict picture, int firstX, int y, int count, std
         nx = usable ? nx * scale : -vx * toEye;
         ny = usable ? ny * scale : -vy * toEye;
         nz = usable ? nz * scale : toEye;
-        const float offset = 0.02f * depth * pixel + picture.rounding;
+        const float offset = 0.008f * depth * pixel + picture.rounding;
         const float px = vx * depth + offset * (nx - vx * toEye),
                     py = vy * depth + offset * (ny - vy * toEye),
                     pz = -depth + offset * (nz + toEye);

@@ -26,7 +26,7 @@ vec4 gather(ivec2 pixel) {
     vec3 camera = abs(frame.worldFromView[3].xyz);
     float farthest = max(max(camera.x, camera.y), max(camera.z, frame.depth.y));
     float offset =
-        0.02 * depth * abs(frame.viewFromUv.y) * frame.size.w + 9.5367432e-7 * farthest;
+        0.008 * depth * abs(frame.viewFromUv.y) * frame.size.w + 9.5367432e-7 * farthest;
     vec3 origin = (frame.worldFromView * vec4(seen + offset * (normal + view), 1.0)).xyz;
     normal = mat3(frame.worldFromView) * normal;
     uint rays = uint(settings.rays);

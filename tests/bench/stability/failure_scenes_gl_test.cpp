@@ -156,8 +156,8 @@ TEST_F(FailureScenes, StoredDepthIsWhatTechniquesRead) {
     EXPECT_NE(flat.pixels, plain.pixels);
 }
 
-// Rays start above their surface however coarse its depth: planes stay open, and a crease is as
-// dark as with 32 bits.
+// Rays start above their surface however coarse its depth: planes stay open, and a crease is nearly
+// as dark as with 32 bits (half floats put starts up to a step before it, .06 R at 100 R).
 TEST_F(FailureScenes, RaysKnowHowCoarseDepthIs) {
     const FailureScene built(creaseScene());
     const auto part = [](float low, float high) {
@@ -178,7 +178,7 @@ TEST_F(FailureScenes, RaysKnowHowCoarseDepthIs) {
                     << configuration << ", " << distance << " R, step " << stored.step.x;
                 const double found = meanOcclusion(image, view.select(part(0.15f, 0.5f)));
                 crease = crease < 0 ? found : crease;
-                EXPECT_NEAR(found, crease, 0.02) << configuration << ", " << distance << " R";
+                EXPECT_NEAR(found, crease, 0.03) << configuration << ", " << distance << " R";
             }
         }
     }
