@@ -25,8 +25,9 @@ Progress::Progress(std::string label, double total)
 
 Progress::~Progress() { print(done_, {}, true); }
 
-void Progress::update(double done, const std::string& note) {
+void Progress::update(double done, const std::string& note, std::optional<double> secondsLeft) {
     done_ = std::min(done, total_);
+    secondsLeft_ = secondsLeft;
     const auto interval = terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(5);
     if (done_ < total_ && Clock::now() - printed_ >= interval)
         print(done_, note, false);
@@ -39,6 +40,8 @@ void Progress::print(double done, const std::string& note, bool last) {
     std::string time = fmt::format("{} so far", spell(elapsed));
     if (last)
         time = fmt::format("in {}", spell(elapsed));
+    else if (secondsLeft_)
+        time = fmt::format("{} left", spell(*secondsLeft_));
     else if (share >= 0.01) // earlier, rates are of starting up
         time = fmt::format("{} left", spell(elapsed * (1 - share) / share));
 

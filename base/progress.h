@@ -1,20 +1,21 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace obscura {
 
 // A progress line on stderr: what is done, how much, how long it will still take. On a terminal
 // the line rewrites itself; elsewhere (a log) a new line appears at most every five seconds.
-// Time left is estimated from the finished part's rate.
+// Time left is estimated from the finished part's rate, unless who tells knows better.
 class Progress {
   public:
     Progress(std::string label, double total);
     ~Progress(); // ends the line
 
     // `done` counts in the units of `total`; `note` names the item at hand.
-    void update(double done, const std::string& note = {});
+    void update(double done, const std::string& note = {}, std::optional<double> secondsLeft = {});
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -24,6 +25,7 @@ class Progress {
     std::string label_;
     double total_;
     double done_ = 0;
+    std::optional<double> secondsLeft_;
     bool terminal_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point printed_{};

@@ -53,10 +53,15 @@ class Units {
     using Work = std::function<std::string()>; // gives the result
     using Lease = std::chrono::duration<double>;
 
+    // Whether what a finished unit of this result made beside it, such as a picture, is still
+    // there.
+    using Stands = std::function<bool(const std::string& name, const std::string& result)>;
+
     // `about` is what decides results (study, program): a folder whose plan has another, or other
-    // units, is an Error that shows both and says to name another folder.
+    // units, is an Error that shows both and says to name another folder. Where the work of an
+    // earlier run no longer `stands`, the unit is open again.
     Units(std::filesystem::path folder, std::string about, std::vector<Unit> plan,
-          Lease lease = std::chrono::minutes(2));
+          Lease lease = std::chrono::minutes(2), Stands stands = {});
     ~Units(); // gives back what it holds
     Units(const Units&) = delete;
     Units& operator=(const Units&) = delete;
