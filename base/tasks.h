@@ -1,6 +1,5 @@
 #pragma once
 
-#include "base/progress.h"
 #include "base/units.h"
 
 #include <functional>
@@ -18,15 +17,12 @@ struct Task {
 
 std::vector<Unit> unitsOf(const std::vector<Task>& tasks);
 
-// What all workers together have done, and what is at hand.
-using UnitsProgress = std::function<void(const UnitsState&, const std::string& note)>;
-
-// A line of the kind; its total is 1.
-UnitsProgress showing(Progress& progress);
+// Told the share of all units that is done, 0 ... 1, by whichever worker, and what is at hand.
+using TaskProgress = std::function<void(double share, const std::string& note)>;
 
 // Does tasks until all are done, by this process or by others that share the units. `progress` is
-// told about once a second, before tasks and while others are waited for. What a task throws goes
-// on; its unit is given back when `units` ends.
-void doTasks(Units& units, const std::vector<Task>& tasks, const UnitsProgress& progress = {});
+// told before each task, and while others are waited for. What a task throws goes on; its unit is
+// given back when `units` ends.
+void doTasks(Units& units, const std::vector<Task>& tasks, const TaskProgress& progress = {});
 
 } // namespace obscura

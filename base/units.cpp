@@ -460,6 +460,13 @@ bool Units::finish(const std::string& name, const std::string& result) {
 
 void Units::giveBack(const std::string& name) { self_->release(name); }
 
+double Units::costDone() const {
+    double cost = 0;
+    for (const Unit& unit : self_->plan)
+        cost += self_->done.contains(unit.name) ? unit.cost : 0;
+    return cost;
+}
+
 UnitsState Units::state() const {
     std::map<std::string, Unit> units;
     for (const Unit& unit : self_->plan)

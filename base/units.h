@@ -90,6 +90,9 @@ class Units {
     void giveBack(const std::string& name);
 
     UnitsState state() const;
+    // Of the plan's units that this process knows to be done: all that were when it last looked for
+    // one to claim.
+    double costDone() const;
 
   private:
     struct Implementation;

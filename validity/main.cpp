@@ -3,6 +3,7 @@
 #include "base/arguments.h"
 #include "base/files.h"
 #include "base/process.h"
+#include "base/progress.h"
 
 #include "validity/shared.h"
 #include <CLI/CLI.hpp>
@@ -41,7 +42,8 @@ int run(int argc, char** argv) {
         options.share = options.memory;
     fs::create_directories(options.memory);
     Progress progress("simulated studies", 1);
-    const std::string page = sharedValidityPage(options, showing(progress));
+    const std::string page = sharedValidityPage(
+        options, [&](double share, const std::string& note) { progress.update(share, note); });
     progress.update(1);
     fs::remove_all(options.memory);
     writeFile(out, page);

@@ -115,7 +115,7 @@ Outcomes readOutcomes(const std::string& text) {
     }
 }
 
-std::string sharedValidityPage(const ValidityOptions& options, const UnitsProgress& progress) {
+std::string sharedValidityPage(const ValidityOptions& options, const TaskProgress& progress) {
     const std::vector<World> all = worlds();
     const std::vector<Task> tasks = tasksOf(all, options);
     Units units(options.share, aboutOf(options), unitsOf(tasks));

@@ -27,7 +27,7 @@ struct ValidityOptions {
 // The page of all worlds (validityPage()). What is done in `share` is not done again; other
 // processes with the same options may do the rest at the same time. The page is the same, byte for
 // byte, however many they are.
-std::string sharedValidityPage(const ValidityOptions& options, const UnitsProgress& progress = {});
+std::string sharedValidityPage(const ValidityOptions& options, const TaskProgress& progress = {});
 
 // As the result of a unit, and back. What is no such text is an Error.
 std::string outcomesText(const Outcomes& outcomes);
