@@ -32,8 +32,8 @@ void warn(const std::vector<std::string>& warnings) {
 void report(const GenerateResult& result, const fs::path& folder) {
     warn(result.warnings);
     const StageTimes& t = result.times;
-    fmt::print("{} images rendered, {} kept, in {}\n", result.rendered, result.kept,
-               folder.string());
+    fmt::print("{} images rendered, {} kept or rendered by others, in {}\n", result.rendered,
+               result.kept, folder.string());
     if (result.rendered > 0)
         fmt::print(
             "seconds: scenes and shadow maps {:.1f}, G-buffer {:.1f}, light {:.1f}, occlusion "

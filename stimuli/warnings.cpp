@@ -109,4 +109,17 @@ std::vector<std::string> Warnings::of(const Condition& condition, std::span<cons
     return found;
 }
 
+std::vector<std::string> ofScene(const std::string& view, const std::vector<std::string>& found) {
+    std::vector<std::string> texts;
+    for (const std::string& each : found)
+        texts.push_back(fmt::format("scene \"{}\": {}", view, each));
+    return texts;
+}
+
+void addOnce(std::vector<std::string>& all, const std::vector<std::string>& more) {
+    for (const std::string& each : more)
+        if (std::find(all.begin(), all.end(), each) == all.end())
+            all.push_back(each);
+}
+
 } // namespace obscura

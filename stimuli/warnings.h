@@ -35,4 +35,10 @@ class Warnings {
     std::set<std::string> views_;              // looked at
 };
 
+// What is said of a scene, as a text that names it.
+std::vector<std::string> ofScene(const std::string& view, const std::vector<std::string>& found);
+
+// Adds those that are not there yet.
+void addOnce(std::vector<std::string>& all, const std::vector<std::string>& more);
+
 } // namespace obscura
