@@ -6,7 +6,6 @@
 #include "tests/killed_workers.h"
 #include "tests/renderer/scene/small_gltf.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -56,17 +55,10 @@ thanks = "t"
     return text;
 }
 
-// The program in place of this process; what it says goes into a log.
-[[noreturn]] void become(const fs::path& root, const std::string& out) {
-    const std::string program = std::string(OBSCURA_BIN) + "/obscura-stimuli",
-                      protocol = root / "shared.toml", folder = root / out,
-                      log = root / (out + ".log");
-    const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
-    ::dup2(file, 1);
-    ::dup2(file, 2);
-    ::execl(program.c_str(), program.c_str(), protocol.c_str(), "--scenes", root.c_str(), "--out",
-            folder.c_str(), nullptr);
-    ::_exit(127);
+[[noreturn]] void makeStimuli(const test::Folder& root, const std::string& out) {
+    test::become({OBSCURA_BIN "/obscura-stimuli", root / "shared.toml", "--scenes", root.path(),
+                  "--out", root / out},
+                 root / (out + ".log"));
 }
 
 // All files by their hashes; the manifest's without what differs from run to run.
@@ -93,11 +85,11 @@ TEST(SharedStimuli, AreThoseOfOneProcessHoweverManyAreKilled) {
     writeFile(root / "t.gltf", trianglesGltf(corner));
     writeFile(root / "shared.toml", protocolText());
     int status = 0;
-    const pid_t alone = test::startWorker([&] { become(root.path(), "alone"); });
+    const pid_t alone = test::startWorker([&] { makeStimuli(root, "alone"); });
     ASSERT_EQ(::waitpid(alone, &status, 0), alone);
     ASSERT_EQ(status, 0) << readFile(root / "alone.log");
 
-    EXPECT_GT(test::killWorkers(3, 12, 1.2, 1, [&] { become(root.path(), "shared"); }), 0);
+    EXPECT_GT(test::killWorkers(3, 12, 1.2, 1, [&] { makeStimuli(root, "shared"); }), 0);
     EXPECT_EQ(contentsOf(root / "shared"), contentsOf(root / "alone"))
         << readFile(root / "shared.log");
     const UnitsState state = unitsState(root / "shared");
