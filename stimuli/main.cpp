@@ -121,7 +121,9 @@ int run(int argc, char** argv) {
     matching->add_option("--radius", radius, "only this one of the study's radii, metres")
         ->check(numberFrom(1e-4, 1e4));
     app.add_option("protocol", protocolPath, "study, TOML");
-    app.add_option("--out", out, "stimulus folder; default stimuli-NAME");
+    app.add_option("--out", out,
+                   "stimulus folder; default stimuli-NAME; processes of the same command, on any "
+                   "machines that see it, share the work");
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
     app.add_option("--device", device, "render with this device of obscura-render --devices");
     app.add_flag("--layers", layers, "write linear EXR of image, visibility and G-buffer as well");

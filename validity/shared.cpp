@@ -53,17 +53,21 @@ Planned plannedPower(const World& world, int studies) {
     return planned;
 }
 
+int blockOf(const ValidityOptions& options) {
+    return options.block > 0 ? options.block : std::max(100, options.studies / 100);
+}
+
 // All that decides results; where they lie and how many threads there are does not.
 std::string aboutOf(const ValidityOptions& options) {
     const nlohmann::ordered_json about = {{"formatVersion", 1},        {"program", version()},
                                           {"code", validityCode()},    {"studies", options.studies},
-                                          {"seed", options.seed},      {"block", options.block},
+                                          {"seed", options.seed},      {"block", blockOf(options)},
                                           {"planned", options.planned}};
     return about.dump(2) + "\n";
 }
 
 std::vector<Block> blocksOf(const World& world, const ValidityOptions& options) {
-    const int studies = world.studies(options.studies), size = world.studies(options.block);
+    const int studies = world.studies(options.studies), size = world.studies(blockOf(options));
     std::vector<Block> blocks;
     for (int first = 0; first < studies; first += size)
         blocks.push_back({first, std::min(size, studies - first)});

@@ -20,8 +20,10 @@ struct ValidityOptions {
     std::filesystem::path share;  // units/ in it has the units; those of other studies are an Error
     std::filesystem::path memory; // where each study's CSV lies while it is read
     int threads = 0;              // of this process; 0: one for each core
-    int block = 100;              // studies of a unit; of scales as many fewer as worlds say
-    int planned = 2000;           // studies for each power that is planned
+    // Studies of a unit, of scales as many fewer as worlds say; 0: a hundredth of all, at least
+    // 100, which take a second.
+    int block = 0;
+    int planned = 2000; // studies for each power that is planned
 };
 
 // The page of all worlds (validityPage()). What is done in `share` is not done again; other

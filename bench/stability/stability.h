@@ -30,7 +30,7 @@ struct StabilityOptions {
     std::optional<Motion> motion = {};
     std::string about =
         "{}\n";        // stability.json: what else decides the numbers, such as the program
-    bool anew = false; // whatever the folder's CSV holds is measured again, or left out
+    bool anew = false; // whatever the folder's CSV holds is left out
 };
 
 // All tests of still pictures, in the order of the page's columns; those in motion
@@ -43,11 +43,12 @@ std::vector<std::string> screenTechniques();
 // The share done, 0 ... 1, and what is at hand.
 using StabilityProgress = std::function<void(double, const std::string&)>;
 
-// Runs the tests. What the folder's CSV holds of other tests and configurations stays, if it was
-// measured with the same `about`. If it was measured with another, that is an Error, unless `anew`
-// is set. The CSV is written again after each technique, so that finished ones are kept, and the
-// page at the end. A context must be current; an unknown test is an Error. Returns all that stands
-// in the CSV.
+// Runs the tests, with all other processes that do so in this folder (base/units.h); what was done
+// there with the same `about` and size is not done again while its pictures are there. CSV and page
+// are made at the end, by one of them, and are those of a process alone. What the folder's CSV
+// holds of other tests and configurations stays, if it was measured with the same `about`. If it
+// was measured with another, that is an Error, unless `anew` is set. A context must be current; an
+// unknown test is an Error. Returns all that stands in the CSV.
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress);
 
