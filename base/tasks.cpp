@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 #include <string_view>
+#include <utility>
 
 namespace obscura {
 
@@ -26,11 +27,14 @@ void doTasks(Units& units, const std::vector<Task>& tasks, const TaskProgress& p
         if (progress)
             progress(units.costDone() / cost, note);
     };
+    bool isFirst = true;
     std::string group;
     for (const int stage : stages) {
         const auto among = [&](const Unit& unit) { return byName.at(unit.name)->stage == stage; };
         while (const auto name = units.claimNext(
                    group, [&] { tell("waiting for other workers"); }, among)) {
+            if (std::exchange(isFirst, false))
+                units.refuseOtherWork();
             const Task& task = *byName.at(*name);
             group = task.unit.group;
             tell(*name);

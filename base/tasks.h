@@ -22,7 +22,8 @@ using TaskProgress = std::function<void(double share, const std::string& note)>;
 
 // Does tasks until all are done, by this process or by others that share the units. `progress` is
 // told before each task, and while others are waited for. What a task throws goes on; its unit is
-// given back when `units` ends.
+// given back when `units` ends. Where others work in the folder on something else, which may write
+// the same files, that is an Error.
 void doTasks(Units& units, const std::vector<Task>& tasks, const TaskProgress& progress = {});
 
 } // namespace obscura

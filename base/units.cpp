@@ -460,6 +460,22 @@ bool Units::finish(const std::string& name, const std::string& result) {
 
 void Units::giveBack(const std::string& name) { self_->release(name); }
 
+void Units::refuseOtherWork() const {
+    std::set<std::string> own;
+    for (const Unit& unit : self_->plan)
+        own.insert(unit.name);
+    const UnitsState all =
+        stateOf(plannedUnits(self_->folder), self_->folder, self_->lease.count());
+    for (const UnitsState::Held& held : all.held)
+        if (!own.contains(held.name))
+            throw Error({self_->folder.string(), 0, 0, {}},
+                        fmt::format("expected that all who work in this folder do the same, found "
+                                    "process {} on {} at work on \"{}\", which is not part of "
+                                    "this; wait until it is done (or dead for {:g} seconds), or "
+                                    "name another folder with --out",
+                                    held.pid, held.machine, held.name, self_->lease.count()));
+}
+
 double Units::costDone() const {
     double cost = 0;
     for (const Unit& unit : self_->plan)

@@ -90,6 +90,9 @@ class Units {
     void giveBack(const std::string& name);
 
     UnitsState state() const;
+    // Throws an Error while another process works in the folder on what is not in the plan. Who
+    // asks when it holds a unit learns of all that do the same; both may.
+    void refuseOtherWork() const;
     // Of the plan's units that this process knows to be done: all that were when it last looked for
     // one to claim.
     double costDone() const;

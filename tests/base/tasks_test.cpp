@@ -1,9 +1,11 @@
 #include "base/error.h"
 #include "base/tasks.h"
+#include "tests/error_of.h"
 #include "tests/folder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <string>
 #include <vector>
@@ -60,6 +62,23 @@ TEST(Tasks, AStageWaitsForWhatOthersDo) {
     });
     EXPECT_THAT(done, ElementsAre("first", "last"));
     EXPECT_EQ(units.result("second"), "by the other");
+}
+
+// Such as stimuli of another protocol, which may have pictures of the same names.
+TEST(Tasks, OtherWorkInTheFolderIsRefusedWhileItGoesOn) {
+    const test::Folder root;
+    std::vector<std::string> done;
+    const std::vector<Task> tasks = threeTasks(done);
+    Units units(root.path(), "", unitsOf(tasks)), other(root.path(), "", {{"of others", "", 1}});
+    EXPECT_EQ(other.claimNext(""), "of others");
+    EXPECT_THAT(test::errorOf([&] { doTasks(units, tasks); }),
+                testing::AllOf(testing::HasSubstr("\"of others\""),
+                               testing::HasSubstr(std::to_string(::getpid()))));
+    EXPECT_THAT(done, testing::IsEmpty());
+    other.finish("of others", "");
+    units.giveBack("first");
+    doTasks(units, tasks);
+    EXPECT_EQ(done.size(), 3U);
 }
 
 TEST(Tasks, WhatFailsIsGivenBack) {
