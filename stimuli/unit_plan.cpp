@@ -3,6 +3,7 @@
 #include "base/files.h"
 #include "base/version.h"
 #include "protocols/reader/design.h"
+#include "protocols/reader/manifest_text.h"
 
 #include <fmt/format.h>
 
