@@ -7,8 +7,8 @@
 
 namespace obscura {
 
-std::vector<Unit> unitsOf(const std::vector<Task>& tasks) {
-    std::vector<Unit> units;
+std::vector<WorkUnit> unitsOf(const std::vector<Task>& tasks) {
+    std::vector<WorkUnit> units;
     for (const Task& task : tasks)
         units.push_back(task.unit);
     return units;
@@ -30,7 +30,9 @@ void doTasks(Units& units, const std::vector<Task>& tasks, const TaskProgress& p
     bool isFirst = true;
     std::string group;
     for (const int stage : stages) {
-        const auto among = [&](const Unit& unit) { return byName.at(unit.name)->stage == stage; };
+        const auto among = [&](const WorkUnit& unit) {
+            return byName.at(unit.name)->stage == stage;
+        };
         while (const auto name = units.claimNext(
                    group, [&] { tell("waiting for other workers"); }, among)) {
             if (std::exchange(isFirst, false))

@@ -10,12 +10,12 @@ namespace obscura {
 
 // A unit of shared work with what does it.
 struct Task {
-    Unit unit;
+    WorkUnit unit;
     std::function<std::string()> work; // gives the unit's result
     int stage = 0;                     // begun when all tasks of lower stages are done
 };
 
-std::vector<Unit> unitsOf(const std::vector<Task>& tasks);
+std::vector<WorkUnit> unitsOf(const std::vector<Task>& tasks);
 
 // Told the share of all units that is done, 0 ... 1, by whichever worker, and what is at hand.
 using TaskProgress = std::function<void(double share, const std::string& note)>;

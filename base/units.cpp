@@ -122,14 +122,14 @@ Holder holderOf(const fs::path& claim, double now, double lease) {
     return holder;
 }
 
-nlohmann::ordered_json planJson(const std::vector<Unit>& plan) {
+nlohmann::ordered_json planJson(const std::vector<WorkUnit>& plan) {
     auto units = nlohmann::ordered_json::array();
-    for (const Unit& unit : plan)
+    for (const WorkUnit& unit : plan)
         units.push_back({{"name", unit.name}, {"group", unit.group}, {"cost", unit.cost}});
     return {{"formatVersion", 1}, {"units", units}};
 }
 
-void addPlan(const fs::path& file, std::map<std::string, Unit>& units) {
+void addPlan(const fs::path& file, std::map<std::string, WorkUnit>& units) {
     try {
         const auto root = nlohmann::json::parse(readFile(file));
         for (const auto& unit : root.at("units"))
@@ -143,8 +143,8 @@ void addPlan(const fs::path& file, std::map<std::string, Unit>& units) {
 }
 
 // Every unit that any process has planned in the folder.
-std::map<std::string, Unit> plannedUnits(const fs::path& folder) {
-    std::map<std::string, Unit> units;
+std::map<std::string, WorkUnit> plannedUnits(const fs::path& folder) {
+    std::map<std::string, WorkUnit> units;
     if (fs::is_directory(folder))
         for (const fs::directory_entry& entry : fs::directory_iterator(folder))
             if (const std::string name = entry.path().filename().string();
@@ -173,8 +173,8 @@ std::optional<double> secondsLeft(const std::vector<std::pair<double, double>>& 
 }
 
 // Units that are `fallen` have a result, and are open nevertheless.
-UnitsState stateOf(const std::map<std::string, Unit>& units, const fs::path& folder, double lease,
-                   const std::set<std::string>& fallen = {}) {
+UnitsState stateOf(const std::map<std::string, WorkUnit>& units, const fs::path& folder,
+                   double lease, const std::set<std::string>& fallen = {}) {
     UnitsState state;
     const double now = folderNow(folder / "about");
     const Listing listing = listingOf(folder);
@@ -214,7 +214,7 @@ UnitsState unitsState(const fs::path& folder, Seconds lease) {
 
 struct Units::Implementation {
     fs::path folder; // "units" itself
-    std::vector<Unit> plan;
+    std::vector<WorkUnit> plan;
     Lease lease;
     Stands stands;
     mutable std::set<std::string> done;   // as far as known
@@ -231,14 +231,14 @@ struct Units::Implementation {
     double now() const { return folderNow(folder / "about"); }
 
     struct Open {
-        const Unit* unit;
+        const WorkUnit* unit;
         ClaimFile last; // of a process that is gone; number 0: none
     };
 
     void tidy();
     void open(const std::string& about);
     std::vector<Open> openUnits(const std::string& group,
-                                const std::function<bool(const Unit&)>& among, bool& others);
+                                const std::function<bool(const WorkUnit&)>& among, bool& others);
     void beat(const std::stop_token& stop);
     void findFallen();
     bool isDone(const std::string& name) const;
@@ -281,7 +281,7 @@ void Units::Implementation::findFallen() {
     if (!stands)
         return;
     const Listing listing = listingOf(folder);
-    for (const Unit& unit : plan)
+    for (const WorkUnit& unit : plan)
         if (const auto found = listing.find(fileNameOf(unit.name));
             found != listing.end() && !found->second.done.empty() &&
             !stands(unit.name, readFile(found->second.done)))
@@ -337,7 +337,8 @@ bool Units::Implementation::release(const std::string& name) {
     return true;
 }
 
-Units::Units(fs::path folder, std::string about, std::vector<Unit> plan, Lease lease, Stands stands)
+Units::Units(fs::path folder, std::string about, std::vector<WorkUnit> plan, Lease lease,
+             Stands stands)
     : self_(std::make_unique<Implementation>()) {
     self_->folder = unitsFolder(folder);
     self_->plan = std::move(plan);
@@ -363,11 +364,11 @@ std::optional<std::string> Units::result(const std::string& name) const {
 // last, because that takes a file each.
 std::vector<Units::Implementation::Open>
 Units::Implementation::openUnits(const std::string& group,
-                                 const std::function<bool(const Unit&)>& among, bool& others) {
+                                 const std::function<bool(const WorkUnit&)>& among, bool& others) {
     std::vector<Open> open, claimed;
     std::map<std::string, std::size_t> workers; // by group
     const Listing listing = listingOf(folder);
-    for (const Unit& unit : plan) {
+    for (const WorkUnit& unit : plan) {
         if ((among && !among(unit)) || done.contains(unit.name))
             continue;
         const auto found = listing.find(fileNameOf(unit.name));
@@ -399,7 +400,7 @@ Units::Implementation::openUnits(const std::string& group,
 
 std::optional<std::string> Units::claimNext(const std::string& group,
                                             const std::function<void()>& waiting,
-                                            const std::function<bool(const Unit&)>& among) {
+                                            const std::function<bool(const WorkUnit&)>& among) {
     for (bool others = true;;) {
         const auto open = self_->openUnits(group, among, others);
         for (const auto& candidate : open) {
@@ -462,7 +463,7 @@ void Units::giveBack(const std::string& name) { self_->release(name); }
 
 void Units::refuseOtherWork() const {
     std::set<std::string> own;
-    for (const Unit& unit : self_->plan)
+    for (const WorkUnit& unit : self_->plan)
         own.insert(unit.name);
     const UnitsState all =
         stateOf(plannedUnits(self_->folder), self_->folder, self_->lease.count());
@@ -478,14 +479,14 @@ void Units::refuseOtherWork() const {
 
 double Units::costDone() const {
     double cost = 0;
-    for (const Unit& unit : self_->plan)
+    for (const WorkUnit& unit : self_->plan)
         cost += self_->done.contains(unit.name) ? unit.cost : 0;
     return cost;
 }
 
 UnitsState Units::state() const {
-    std::map<std::string, Unit> units;
-    for (const Unit& unit : self_->plan)
+    std::map<std::string, WorkUnit> units;
+    for (const WorkUnit& unit : self_->plan)
         units[unit.name] = unit;
     return stateOf(units, self_->folder, self_->lease.count(), self_->fallen);
 }

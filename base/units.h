@@ -21,7 +21,7 @@ namespace obscura {
 // work, which keeps others from doing the same for nothing: the holder touches it while it works,
 // and who finds it untouched for the length of a lease, or its process gone, makes claim N + 1.
 
-struct Unit {
+struct WorkUnit {
     std::string name;  // unique; any text
     std::string group; // units of a group share what is slow to prepare, such as a view of a scene
     double cost = 1;   // about how long it takes, in any measure that all units share
@@ -60,7 +60,7 @@ class Units {
     // `about` is what decides results (study, program): a folder whose plan has another, or other
     // units, is an Error that shows both and says to name another folder. Where the work of an
     // earlier run no longer `stands`, the unit is open again.
-    Units(std::filesystem::path folder, std::string about, std::vector<Unit> plan,
+    Units(std::filesystem::path folder, std::string about, std::vector<WorkUnit> plan,
           Lease lease = std::chrono::minutes(2), Stands stands = {});
     ~Units(); // gives back what it holds
     Units(const Units&) = delete;
@@ -76,7 +76,7 @@ class Units {
     // `among` limits it to units for which it is true; the others may stay undone.
     std::optional<std::string> claimNext(const std::string& group,
                                          const std::function<void()>& waiting = {},
-                                         const std::function<bool(const Unit&)>& among = {});
+                                         const std::function<bool(const WorkUnit&)>& among = {});
 
     // This unit: its result if it is done, else by `work`, or when another process that has it is
     // through. For what other units depend on. What `work` throws goes on, and the unit is given

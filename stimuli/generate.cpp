@@ -94,11 +94,12 @@ std::vector<Task> Generation::tasks() {
                           static_cast<double>(planned.images.size())},
                          [this, &planned] { return made(planned); }});
     }
-    tasks.push_back({{plan_.times, "times", 1}, [this] { return timed(); }, 1});
-    tasks.push_back({{plan_.manifest, "manifest", 1}, [this] { return assembled(); }, 2});
+    tasks.push_back({{plan_.times, "times"}, [this] { return timed(); }, 1});
+    tasks.push_back({{plan_.manifest, "manifest"}, [this] { return assembled(); }, 2});
     return tasks;
 }
 
+// Of the result of a condition's unit.
 Manifest conditionsOf(const std::string& result) {
     return parseManifest(nlohmann::json::parse(result).at("manifest").dump(), "units");
 }

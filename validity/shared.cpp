@@ -36,23 +36,6 @@ std::map<std::string, Rate> ratesFrom(const Json& json) {
     return rates;
 }
 
-// What is planned for people who choose as those of the world do.
-Planned plannedPower(const World& world, int studies) {
-    Protocol protocol = world.protocol();
-    for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
-        protocol.conditions[i].simulated.chooseB = world.truth.shares[i];
-    PlanOptions options;
-    options.participants = world.people;
-    options.spread = world.truth.spread;
-    options.studies = studies;
-    const Plan plan = planOf(protocol, options);
-    Planned planned;
-    for (const StatedPower& stated : plan.stated)
-        for (std::size_t i = 0; stated.people == world.people && i < plan.tests.size(); ++i)
-            planned[plan.tests[i].claim.name] = stated.supported[i].share;
-    return planned;
-}
-
 int blockOf(const ValidityOptions& options) {
     return options.block > 0 ? options.block : std::max(100, options.studies / 100);
 }
@@ -92,13 +75,29 @@ std::vector<Task> tasksOf(const std::vector<World>& all, const ValidityOptions& 
                              }});
         if (world.name == "effect")
             tasks.push_back(
-                {{plannedName, plannedName, static_cast<double>(options.planned)},
+                {{plannedName, plannedName, options.planned / 10.0},
                  [&world, &options] { return Json(plannedPower(world, options.planned)).dump(); }});
     }
     return tasks;
 }
 
 } // namespace
+
+std::map<std::string, double> plannedPower(const World& world, int studies) {
+    Protocol protocol = world.protocol();
+    for (std::size_t i = 0; i < protocol.conditions.size(); ++i)
+        protocol.conditions[i].simulated.chooseB = world.truth.shares[i];
+    PlanOptions options;
+    options.participants = world.people;
+    options.spread = world.truth.spread;
+    options.studies = studies;
+    const Plan plan = planOf(protocol, options);
+    std::map<std::string, double> planned;
+    for (const StatedPower& stated : plan.stated)
+        for (std::size_t i = 0; stated.people == world.people && i < plan.tests.size(); ++i)
+            planned[plan.tests[i].claim.name] = stated.supported[i].share;
+    return planned;
+}
 
 std::string outcomesText(const Outcomes& outcomes) {
     return Json{{"rejected", toJson(outcomes.rejected)},

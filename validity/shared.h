@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,9 @@ struct ValidityOptions {
 // processes with the same options may do the rest at the same time. The page is the same, byte for
 // byte, however many they are.
 std::string sharedValidityPage(const ValidityOptions& options, const TaskProgress& progress = {});
+
+// Of each claim, the power that is planned for people who choose as those of the world do.
+std::map<std::string, double> plannedPower(const World& world, int studies);
 
 // As the result of a unit, and back. What is no such text is an Error.
 std::string outcomesText(const Outcomes& outcomes);

@@ -51,7 +51,7 @@ TEST(Tasks, AStageWaitsForWhatOthersDo) {
     std::vector<std::string> done;
     const std::vector<Task> tasks = threeTasks(done);
     Units units(root.path(), "", unitsOf(tasks)), other(root.path(), "", unitsOf(tasks));
-    EXPECT_EQ(other.claimNext("", {}, [](const Unit& unit) { return unit.name == "second"; }),
+    EXPECT_EQ(other.claimNext("", {}, [](const WorkUnit& unit) { return unit.name == "second"; }),
               "second");
     doTasks(units, tasks, [&](double share, const std::string& note) {
         if (note != "waiting for other workers")

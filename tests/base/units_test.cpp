@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<Unit> planOf(int units, int groups = 1) {
-    std::vector<Unit> plan;
+std::vector<WorkUnit> planOf(int units, int groups = 1) {
+    std::vector<WorkUnit> plan;
     for (int i = 0; i < units; ++i)
         plan.push_back({fmt::format("unit {}", i), fmt::format("group {}", i * groups / units), 1});
     return plan;
@@ -119,7 +119,7 @@ TEST(Units, WorkersStayInTheirGroupAndBeginWhereFewestWork) {
 TEST(Units, AmongThoseThatAreAskedFor) {
     const test::Folder root;
     Units units(root.path(), "", planOf(3));
-    const auto last = [](const Unit& unit) { return unit.name == "unit 2"; };
+    const auto last = [](const WorkUnit& unit) { return unit.name == "unit 2"; };
     EXPECT_EQ(units.claimNext("", {}, last), "unit 2");
     units.finish("unit 2", "");
     EXPECT_FALSE(units.claimNext("", {}, last)) << "the others may stay undone";
@@ -277,7 +277,7 @@ TEST(Units, NothingIsLostOrDoubledWhenWorkersAreKilled) {
     }
     EXPECT_EQ(filesWith(root / "units", ".done").size(), std::size_t{units});
     const Units all(root.path(), "kill", planOf(units, 4));
-    for (const Unit& unit : planOf(units, 4))
+    for (const WorkUnit& unit : planOf(units, 4))
         EXPECT_EQ(all.result(unit.name), unit.name + " is done");
     for (const char* left : {"claim", "unfinished"})
         EXPECT_TRUE(filesWith(root / "units", left).empty()) << left;
