@@ -15,8 +15,8 @@ struct GenerateResult {
     int rendered = 0, kept = 0; // images: by this process; those that it found, or others rendered
     StageTimes times;           // of those rendered
     // What the scenes that were loaded use and we do not show, and what makes images worthless
-    // (stimuli/warnings.h), of every condition that was rendered, whoever did; what an earlier
-    // run's manifest lacks, for which its images are made anew.
+    // (stimuli/warnings.h), of every condition rendered since this run began, whoever did; what an
+    // earlier run's manifest lacks, for which its images are made anew.
     std::vector<std::string> warnings;
     double writing = 0;   // seconds: encoding and flushing files, and the contact sheet
     double measuring = 0; // seconds: references, errors, predictions and times

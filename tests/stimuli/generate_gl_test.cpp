@@ -70,7 +70,8 @@ thanks = "t"
 std::map<std::string, std::string> contentsOf(const fs::path& folder) {
     std::map<std::string, std::string> result;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        result[entry.path().filename().string()] = sha256File(entry.path());
+        if (entry.is_regular_file()) // not the units
+            result[entry.path().filename().string()] = sha256File(entry.path());
     return result;
 }
 
@@ -353,8 +354,8 @@ TEST_F(Generate, TheManifestAloneOrTheUnitsAloneKeepImages) {
     EXPECT_EQ(contentsOf(root_ / "out"), before);
 }
 
-// The half that another worker finished is not done again, what it warned of is said, and a
-// reference whose pictures have gone is rendered again.
+// The half that another worker finished is not done again, and a reference whose pictures have gone
+// is rendered again.
 TEST_F(Generate, GoesOnWithWhatOthersFinished) {
     std::string text = tracedText();
     text.replace(text.find("level = \"high\""), 14, "level = \"low\""); // one reference for both
@@ -374,8 +375,8 @@ TEST_F(Generate, GoesOnWithWhatOthersFinished) {
     const GenerateResult rest = run(text);
     EXPECT_EQ(rest.kept, 3);
     EXPECT_EQ(rest.rendered, 2);
-    EXPECT_THAT(whole.warnings, testing::Not(testing::IsEmpty()));
-    EXPECT_THAT(rest.warnings, testing::UnorderedElementsAreArray(whole.warnings));
+    EXPECT_EQ(whole.warnings.size(), 3U);
+    EXPECT_THAT(rest.warnings, testing::ElementsAre(whole.warnings.back())); // of its own half
     for (std::size_t i = 0; i < 2; ++i)
         for (const ImageRecord& image : whole.manifest.conditions[i].images) {
             const ImageRecord& other = rest.manifest.conditions[i].image(image.role);
