@@ -215,14 +215,14 @@ std::string Generation::assembled() {
 }
 
 GenerateResult Generation::run() {
-    std::vector<const PlannedCondition*> made; // since this run began, whoever does it
+    std::vector<const PlannedCondition*> anew; // since this run began, whoever does it
     for (const PlannedCondition& planned : plan_.conditions)
         if (!units_->isDone(planned.unit))
-            made.push_back(&planned);
+            anew.push_back(&planned);
     doTasks(*units_, tasks_, [&](double, const std::string& note) { tell(0, note); });
     result_.manifest =
         inOrder(parseManifest(units_->result(plan_.manifest).value(), folder_ / manifestName));
-    for (const PlannedCondition* planned : made)
+    for (const PlannedCondition* planned : anew)
         addOnce(result_.warnings, nlohmann::json::parse(units_->result(planned->unit).value())
                                       .at("warnings")
                                       .get<std::vector<std::string>>());
