@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Pictures of every kind: two failure tests, and paths with and without motion.
+// Pictures of every kind: a failure test, and cameras with and without motion.
 [[noreturn]] void runTests(const test::Folder& root, const std::string& out,
                            const std::vector<std::string>& more = {}) {
     std::vector<std::string> command{OBSCURA_BIN "/obscura-bench",
@@ -43,7 +43,7 @@ namespace fs = std::filesystem;
                                      "crytek",
                                      "--technique",
                                      "alchemy samples=4"};
-    for (const char* test : {"plane", "edge", "still", "turn", "dolly"})
+    for (const char* test : {"plane", "still", "turn"})
         command.insert(command.end(), {"--test", test});
     command.insert(command.end(), more.begin(), more.end());
     test::become(command, root / (out + ".log"));
@@ -65,12 +65,12 @@ TEST(SharedStability, IsThatOfOneProcessHoweverManyAreKilled) {
     ASSERT_EQ(::waitpid(alone, &status, 0), alone);
     ASSERT_EQ(status, 0) << readFile(root / "alone.log");
 
-    EXPECT_GT(test::killWorkers(3, 8, 1.5, 1, [&] { runTests(root, "shared"); }), 0);
+    EXPECT_GT(test::killWorkers(3, 6, 1.5, 1, [&] { runTests(root, "shared"); }), 0);
     const auto expected = contentsOf(root / "alone");
     EXPECT_EQ(contentsOf(root / "shared"), expected) << readFile(root / "shared.log");
-    EXPECT_GT(expected.size(), 3U + 4 * 5); // pictures of every test and configuration
+    EXPECT_EQ(expected.size(), 3U + 4 * 3 + 1); // every test's and configuration's, and the GIF
     const UnitsState state = unitsState(root / "shared");
-    EXPECT_EQ(state.units, 2 * (1 + 3) + 2 + 3 * 2 + 2U); // tests, frames, paths, GIF and page
+    EXPECT_EQ(state.units, (1 + 3) + 1 + 2 * 2 + 2U); // the test, frames, cameras, GIF and page
     EXPECT_EQ(state.done, state.units);
     EXPECT_THAT(state.held, testing::IsEmpty());
 
