@@ -3,7 +3,6 @@
 #include "base/files.h"
 #include "base/tasks.h"
 #include "image/canvas.h"
-#include "protocols/reader/manifest_text.h"
 #include "stimuli/boost.h"
 #include "stimuli/contact_sheet.h"
 #include "stimuli/earlier.h"

@@ -3,7 +3,6 @@
 #include "base/files.h"
 #include "base/version.h"
 #include "protocols/reader/design.h"
-#include "protocols/reader/manifest_text.h"
 
 #include <fmt/format.h>
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "base/tasks.h"
-#include "bench/motion/temporal.h"
-#include "bench/stability/stability.h"
+#include "bench/stability/motion.h"
 
 #include <filesystem>
 #include <functional>

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "bench/motion/temporal.h"
 #include "bench/stability/cell.h"
+#include "bench/stability/motion.h"
 #include "protocols/reader/match.h"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,6 @@ namespace obscura {
 
 // `obscura-bench stability`: techniques through every failure test. The folder gets stability.csv
 // (csv.h), stability.json, pictures/TEST-CONFIGURATION.png and stability.html (page.h).
-
-// Camera paths through a scene, for steadiness from frame to frame.
-struct Motion {
-    Scene scene;
-    Camera start;
-    double radius = 0.5; // metres; of truth and techniques
-    TemporalEffort effort;
-};
 
 struct StabilityOptions {
     std::vector<std::string> configurations; // as bench/measure/tested_technique.h takes them

@@ -1,7 +1,6 @@
 #include "protocols/reader/manifest.h"
 
 #include "base/files.h"
-#include "protocols/reader/manifest_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,7 +1,7 @@
 // Several processes of obscura-stimuli make one folder of stimuli, and are killed meanwhile.
 #include "base/files.h"
 #include "base/units.h"
-#include "protocols/reader/manifest_text.h"
+#include "protocols/reader/manifest.h"
 #include "tests/folder.h"
 #include "tests/killed_workers.h"
 #include "tests/renderer/scene/small_gltf.h"
