@@ -17,6 +17,8 @@ Progress::~Progress() { print(done_, {}, true); }
 
 void Progress::update(double done, const std::string& note) {
     done_ = std::min(done, total_);
+    if (!found_)
+        found_ = done_;
     const auto interval = terminal_ ? std::chrono::milliseconds(100) : std::chrono::seconds(5);
     if (done_ < total_ && Clock::now() - printed_ >= interval)
         print(done_, note, false);
@@ -29,8 +31,9 @@ void Progress::print(double done, const std::string& note, bool last) {
     std::string time = fmt::format("{} so far", durationText(elapsed));
     if (last)
         time = fmt::format("in {}", durationText(elapsed));
-    else if (share >= 0.01) // earlier, rates are of starting up
-        time = fmt::format("{} left", durationText(elapsed * (1 - share) / share));
+    else if (const double own = share - found_.value_or(0) / total_;
+             own >= 0.01) // earlier, rates are of starting up
+        time = fmt::format("{} left", durationText(elapsed * (1 - share) / own));
 
     constexpr int width = 24;
     const int filled = static_cast<int>(share * width);

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 
 namespace obscura {
 
 // A progress line on stderr: what is done, how much, how long it will still take. On a terminal
 // the line rewrites itself; elsewhere (a log) a new line appears at most every five seconds.
-// Time left is estimated from the finished part's rate.
+// Time left is estimated from the rate since the first update: what was done before, by an earlier
+// run or by others, says nothing of it.
 class Progress {
   public:
     Progress(std::string label, double total);
@@ -24,6 +26,7 @@ class Progress {
     std::string label_;
     double total_;
     double done_ = 0;
+    std::optional<double> found_; // done at the first update
     bool terminal_;
     Clock::time_point start_ = Clock::now();
     Clock::time_point printed_{};

@@ -172,8 +172,9 @@ std::optional<double> secondsLeft(const std::vector<std::pair<double, double>>& 
     return cost > 0 && seconds > 0 ? std::optional(costLeft * seconds / cost) : std::nullopt;
 }
 
+// Units that are `fallen` have a result, and are open nevertheless.
 UnitsState stateOf(const std::map<std::string, WorkUnit>& units, const fs::path& folder,
-                   double lease) {
+                   double lease, const std::set<std::string>& fallen = {}) {
     UnitsState state;
     const double now = folderNow(folder / "about");
     const Listing listing = listingOf(folder);
@@ -185,7 +186,7 @@ UnitsState stateOf(const std::map<std::string, WorkUnit>& units, const fs::path&
         if (found == listing.end())
             continue;
         const UnitFiles& files = found->second;
-        if (!files.done.empty()) {
+        if (!files.done.empty() && !fallen.contains(name)) {
             ++state.done;
             state.costDone += unit.cost;
             finished.emplace_back(touchedAt(files.done).value_or(now), unit.cost);
@@ -215,7 +216,9 @@ struct Units::Implementation {
     fs::path folder; // "units" itself
     std::vector<WorkUnit> plan;
     Lease lease;
-    mutable std::set<std::string> done; // as far as known
+    Stands stands;
+    mutable std::set<std::string> done;   // as far as known
+    mutable std::set<std::string> fallen; // finished by earlier runs, and do not stand
 
     std::mutex mutex;
     std::condition_variable_any changed;
@@ -237,6 +240,8 @@ struct Units::Implementation {
     std::vector<Open> openUnits(const std::string& group,
                                 const std::function<bool(const WorkUnit&)>& among, bool& others);
     void beat(const std::stop_token& stop);
+    void findFallen();
+    bool isDone(const std::string& name) const;
     bool claim(const std::string& name, int number);
     bool release(const std::string& name);
 };
@@ -269,6 +274,32 @@ void Units::Implementation::open(const std::string& about) {
     }
     const std::string text = planJson(plan).dump(1) + "\n";
     writeNewFile(folder / fmt::format("plan-{}.json", sha256(text).substr(0, 12)), text);
+}
+
+// Once, at the beginning: what is finished from now on is there.
+void Units::Implementation::findFallen() {
+    if (!stands)
+        return;
+    const Listing listing = listingOf(folder);
+    for (const WorkUnit& unit : plan)
+        if (const auto found = listing.find(fileNameOf(unit.name));
+            found != listing.end() && !found->second.done.empty() &&
+            !stands(unit.name, readFile(found->second.done)))
+            fallen.insert(unit.name);
+}
+
+bool Units::Implementation::isDone(const std::string& name) const {
+    if (done.contains(name))
+        return true;
+    if (!fs::exists(doneFile(name)))
+        return false;
+    if (fallen.contains(name)) { // unless another process has done it again
+        if (!stands(name, readFile(doneFile(name))))
+            return false;
+        fallen.erase(name);
+    }
+    done.insert(name);
+    return true;
 }
 
 void Units::Implementation::beat(const std::stop_token& stop) {
@@ -306,12 +337,15 @@ bool Units::Implementation::release(const std::string& name) {
     return true;
 }
 
-Units::Units(fs::path folder, std::string about, std::vector<WorkUnit> plan, Lease lease)
+Units::Units(fs::path folder, std::string about, std::vector<WorkUnit> plan, Lease lease,
+             Stands stands)
     : self_(std::make_unique<Implementation>()) {
     self_->folder = unitsFolder(folder);
     self_->plan = std::move(plan);
     self_->lease = lease;
+    self_->stands = std::move(stands);
     self_->open(about);
+    self_->findFallen();
     self_->heart = std::jthread([this](const std::stop_token& stop) { self_->beat(stop); });
 }
 
@@ -320,14 +354,7 @@ Units::~Units() {
         self_->release(std::string(self_->held.begin()->first));
 }
 
-bool Units::isDone(const std::string& name) const {
-    if (self_->done.contains(name))
-        return true;
-    if (!fs::exists(self_->doneFile(name)))
-        return false;
-    self_->done.insert(name);
-    return true;
-}
+bool Units::isDone(const std::string& name) const { return self_->isDone(name); }
 
 std::optional<std::string> Units::result(const std::string& name) const {
     return isDone(name) ? std::optional(readFile(self_->doneFile(name))) : std::nullopt;
@@ -346,7 +373,7 @@ Units::Implementation::openUnits(const std::string& group,
             continue;
         const auto found = listing.find(fileNameOf(unit.name));
         const UnitFiles files = found == listing.end() ? UnitFiles{} : found->second;
-        if (!files.done.empty()) {
+        if (!files.done.empty() && !fallen.contains(unit.name)) {
             done.insert(unit.name);
         } else if (const ClaimFile* last = files.last()) {
             ++workers[unit.group];
@@ -422,7 +449,11 @@ std::string Units::require(const std::string& name, const Work& work,
 }
 
 bool Units::finish(const std::string& name, const std::string& result) {
-    const bool first = writeNewFile(self_->doneFile(name), result);
+    bool first = writeNewFile(self_->doneFile(name), result);
+    if (!first && self_->fallen.erase(name) > 0) {
+        writeFile(self_->doneFile(name), result);
+        first = true;
+    }
     self_->done.insert(name);
     self_->release(name);
     return first;
@@ -430,11 +461,34 @@ bool Units::finish(const std::string& name, const std::string& result) {
 
 void Units::giveBack(const std::string& name) { self_->release(name); }
 
+void Units::refuseOtherWork() const {
+    std::set<std::string> own;
+    for (const WorkUnit& unit : self_->plan)
+        own.insert(unit.name);
+    const UnitsState all =
+        stateOf(plannedUnits(self_->folder), self_->folder, self_->lease.count());
+    for (const UnitsState::Held& held : all.held)
+        if (!own.contains(held.name))
+            throw Error({self_->folder.string(), 0, 0, {}},
+                        fmt::format("expected that all who work in this folder do the same, found "
+                                    "process {} on {} at work on \"{}\", which is not part of "
+                                    "this; wait until it is done (or dead for {:g} seconds), or "
+                                    "name another folder with --out",
+                                    held.pid, held.machine, held.name, self_->lease.count()));
+}
+
+double Units::costDone() const {
+    double cost = 0;
+    for (const WorkUnit& unit : self_->plan)
+        cost += self_->done.contains(unit.name) ? unit.cost : 0;
+    return cost;
+}
+
 UnitsState Units::state() const {
     std::map<std::string, WorkUnit> units;
     for (const WorkUnit& unit : self_->plan)
         units[unit.name] = unit;
-    return stateOf(units, self_->folder, self_->lease.count());
+    return stateOf(units, self_->folder, self_->lease.count(), self_->fallen);
 }
 
 } // namespace obscura

@@ -53,10 +53,15 @@ class Units {
     using Work = std::function<std::string()>; // gives the result
     using Lease = std::chrono::duration<double>;
 
+    // Whether what a finished unit of this result made beside it, such as a picture, is still
+    // there.
+    using Stands = std::function<bool(const std::string& name, const std::string& result)>;
+
     // `about` is what decides results (study, program): a folder whose plan has another, or other
-    // units, is an Error that shows both and says to name another folder.
+    // units, is an Error that shows both and says to name another folder. Where the work of an
+    // earlier run no longer `stands`, the unit is open again.
     Units(std::filesystem::path folder, std::string about, std::vector<WorkUnit> plan,
-          Lease lease = std::chrono::minutes(2));
+          Lease lease = std::chrono::minutes(2), Stands stands = {});
     ~Units(); // gives back what it holds
     Units(const Units&) = delete;
     Units& operator=(const Units&) = delete;
@@ -85,6 +90,12 @@ class Units {
     void giveBack(const std::string& name);
 
     UnitsState state() const;
+    // Throws an Error while another process works in the folder on what is not in the plan. Who
+    // asks when it holds a unit learns of all that do the same; both may.
+    void refuseOtherWork() const;
+    // Of the plan's units that this process knows to be done: all that were when it last looked for
+    // one to claim.
+    double costDone() const;
 
   private:
     struct Implementation;

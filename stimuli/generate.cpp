@@ -1,23 +1,21 @@
 #include "stimuli/generate.h"
 
 #include "base/files.h"
-#include "base/version.h"
+#include "base/tasks.h"
 #include "image/canvas.h"
-#include "matching/anchor.h"
-#include "protocols/reader/design.h"
 #include "stimuli/boost.h"
 #include "stimuli/contact_sheet.h"
+#include "stimuli/earlier.h"
 #include "stimuli/image_files.h"
 #include "stimuli/measurements.h"
-#include "stimuli/plan.h"
-#include "stimuli/times.h"
+#include "stimuli/unit_plan.h"
 #include "stimuli/warnings.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <chrono>
-#include <set>
 
 namespace obscura {
 
@@ -25,101 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What an interrupted run leaves: a manifest of the pairs that were finished.
-constexpr const char* unfinishedName = "unfinished-manifest.json";
-
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();
-}
-
-// What earlier runs left.
-struct Earlier {
-    std::map<std::string, ImageRecord> images; // by the file
-    TimingRecord timing;                       // of their times
-};
-
-bool timedAlike(const Manifest& earlier, const Manifest& now) {
-    return earlier.timing && earlier.timing->renderer == now.timing->renderer &&
-           earlier.timing->processor == now.timing->processor;
-}
-
-// Of an image of an earlier run, what it is; and what was measured of it, where that was measured
-// as it would be now.
-ImageRecord recordOf(const ImageRecord& image, const Manifest& earlier, const Manifest& now) {
-    ImageRecord record = unboosted(image);
-    if (earlier.display != now.display)
-        record.quality.reset();
-    if (!timedAlike(earlier, now))
-        record.milliseconds.reset();
-    return record;
-}
-
-// A manifest that cannot be read proves nothing, which only costs time.
-Earlier earlierRuns(const fs::path& folder, const Manifest& now,
-                    std::vector<std::string>& warnings) {
-    Earlier earlier{{}, *now.timing};
-    for (const char* name : {manifestName, unfinishedName})
-        if (fs::exists(folder / name))
-            try {
-                const Manifest manifest = readManifest(folder / name);
-                if (manifest.schemaVersion < 2)
-                    warnings.push_back(fmt::format(
-                        "{} is of version {}, which does not name the code that rendered: its "
-                        "images are made anew",
-                        (folder / name).string(), manifest.schemaVersion));
-                for (const ConditionRecord& condition : manifest.conditions)
-                    for (const ImageRecord& image : condition.images)
-                        earlier.images[renderedOf(image).path] = recordOf(image, manifest, now);
-                if (timedAlike(manifest, now))
-                    earlier.timing = *manifest.timing;
-            } catch (const Error&) {
-            }
-    return earlier;
-}
-
-// Whether an earlier record proves that the image need not be rendered.
-bool proves(const ImageRecord& earlier, const Recipe& recipe, const fs::path& folder, bool layers) {
-    if (earlier.recipe.sha256() != recipe.sha256() || !intact(folder, earlier.image) ||
-        !earlier.layers.contains("ao") || (layers && !earlier.layers.contains("linear")))
-        return false;
-    return std::all_of(earlier.layers.begin(), earlier.layers.end(),
-                       [&](const auto& layer) { return intact(folder, layer.second); });
-}
-
-Manifest emptyManifest(const Protocol& protocol, const gl::Driver& driver) {
-    Manifest manifest;
-    manifest.study = protocol.name;
-    manifest.title = protocol.title;
-    manifest.protocolSha256 = protocol.sha256;
-    manifest.stimuliSha256 = sha256(partsOf(protocol).stimuli);
-    manifest.commit = std::string(commit());
-    manifest.width = protocol.width;
-    manifest.height = protocol.height;
-    manifest.display = protocol.display;
-    manifest.timing = TimingRecord{"", driver.renderer, processorName(), {}};
-    return manifest;
-}
-
-ConditionRecord emptyPair(const Protocol& protocol, const Condition& condition) {
-    ConditionRecord pair;
-    pair.condition = condition.id;
-    pair.level = condition.level;
-    pair.view = condition.view;
-    pair.hypothesis = condition.hypothesis;
-    pair.radius = protocol.view(condition.view).radius;
-    for (const Role& role : condition.roles)
-        pair.image(role.name);
-    return pair;
-}
-
-// Adds each warning once, with the scene that it is about.
-void addWarnings(std::vector<std::string>& all, const std::string& scene,
-                 const std::vector<std::string>& found) {
-    for (const std::string& warning : found)
-        if (const std::string full = fmt::format("scene \"{}\": {}", scene, warning);
-            std::find(all.begin(), all.end(), full) == all.end())
-            all.push_back(full);
 }
 
 std::map<std::string, std::vector<Recipe>> byView(const std::vector<Recipe>& recipes) {
@@ -129,20 +35,200 @@ std::map<std::string, std::vector<Recipe>> byView(const std::vector<Recipe>& rec
     return result;
 }
 
-void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
+class Generation {
+  public:
+    Generation(const Protocol& protocol, const Folders& folders, fs::path folder, bool layers,
+               const gl::Driver& driver, const Announce& announce, std::string_view code);
+    GenerateResult run();
+
+  private:
+    std::vector<Task> tasks();
+    bool stands(const std::string& unit, const std::string& result) const;
+    void tell(int more, const std::string& note);
+
+    std::string made(const PlannedCondition& planned);
+    ImageRecord imageOf(const PlannedCondition& planned, std::size_t member, bool& anew);
+    std::string timed();
+    std::string assembled();
+
+    Manifest gathered() const;
+    Manifest inOrder(Manifest manifest) const;
+
+    const Protocol& protocol_;
+    fs::path folder_;
+    const gl::Driver& driver_;
+    const Announce& announce_;
+    GenerateResult result_;
+    Earlier earlier_;
+    UnitPlan plan_;
+    std::vector<Recipe> recipes_; // of all images
+    std::vector<Task> tasks_;
+    std::optional<Units> units_;
+    RecipeRenderer renderer_;
+    std::optional<Measurements> measurements_;
+    Warnings warnings_;
+};
+
+Generation::Generation(const Protocol& protocol, const Folders& folders, fs::path folder,
+                       bool layers, const gl::Driver& driver, const Announce& announce,
+                       std::string_view code)
+    : protocol_(protocol), folder_(std::move(folder)), driver_(driver), announce_(announce),
+      earlier_(earlierRun(folder_, protocol.display, result_.warnings)),
+      plan_(unitPlan(protocol, folders, layers, driver, code, earlier_)), recipes_(plan_.recipes()),
+      renderer_(folders), warnings_(protocol, renderer_) {
+    removeUnfinishedFiles(folder_);
+    tasks_ = tasks();
+    units_.emplace(folder_, "stimuli of obscura-stimuli, format 1\n", unitsOf(tasks_),
+                   std::chrono::minutes(2),
+                   [this](const auto& unit, const auto& result) { return stands(unit, result); });
+    measurements_.emplace(protocol, folder_, byView(recipes_), renderer_, *units_,
+                          [this] { tell(0, "waiting for a reference"); });
 }
 
-bool isFinished(const ConditionRecord& condition) {
-    return std::none_of(condition.images.begin(), condition.images.end(),
-                        [](const ImageRecord& image) { return image.image.path.empty(); });
+std::vector<Task> Generation::tasks() {
+    std::vector<Task> tasks;
+    for (const PlannedCondition& planned : plan_.conditions) {
+        const Condition& condition = protocol_.conditions[planned.condition];
+        tasks.push_back({{planned.unit, fmt::format("{}, {}", condition.view, condition.level),
+                          static_cast<double>(planned.images.size())},
+                         [this, &planned] { return made(planned); }});
+    }
+    tasks.push_back({{plan_.times, "times"}, [this] { return timed(); }, 1});
+    tasks.push_back({{plan_.manifest, "manifest"}, [this] { return assembled(); }, 2});
+    return tasks;
 }
 
-// The conditions of which every image is there.
-Manifest finishedPart(Manifest manifest) {
-    std::erase_if(manifest.conditions,
-                  [](const ConditionRecord& condition) { return !isFinished(condition); });
+// Of the result of a condition's unit.
+Manifest conditionsOf(const std::string& result) {
+    return parseManifest(nlohmann::json::parse(result).at("manifest").dump(), "units");
+}
+
+// Whether the files of a result are there, byte for byte.
+bool Generation::stands(const std::string& unit, const std::string& result) const {
+    if (unit == plan_.times)
+        return true;
+    if (unit != plan_.manifest)
+        return intact(folder_, conditionsOf(result));
+    const fs::path file = folder_ / manifestName;
+    return fs::exists(file) && readFile(file) == result &&
+           intact(folder_, parseManifest(result, file));
+}
+
+// `more` images of the condition at hand are done.
+void Generation::tell(int more, const std::string& note) {
+    const int total = static_cast<int>(recipes_.size());
+    announce_(std::min(static_cast<int>(units_->costDone()) + more, total), total, note);
+}
+
+ImageRecord Generation::imageOf(const PlannedCondition& planned, std::size_t member, bool& anew) {
+    const std::string& file = planned.images[member].file;
+    const Recipe& recipe = planned.recipes[member];
+    ImageRecord record;
+    const ImageRecord* known = earlier_.find(file);
+    if (known && proves(*known, recipe, folder_, planned.exrs[member])) {
+        record = *known;
+    } else {
+        anew = true;
+        const Rendering rendering = renderer_.render(recipe, planned.exrs[member]);
+        const double start = seconds();
+        record = written(rendering, file, folder_, planned.exrs[member]);
+        result_.writing += seconds() - start;
+        ++result_.rendered;
+    }
+    const Role& role = protocol_.conditions[planned.condition].roles[member];
+    record.role = role.name;
+    record.name = role.technique;
+    record.recipe = recipe;
+    return record;
+}
+
+std::string Generation::made(const PlannedCondition& planned) {
+    const Condition& condition = protocol_.conditions[planned.condition];
+    ConditionRecord record = emptyCondition(protocol_, condition);
+    std::vector<std::string> found;
+    bool anew = false;
+    for (std::size_t i = 0; i < planned.images.size(); ++i) {
+        tell(static_cast<int>(i), planned.images[i].file);
+        record.images.push_back(imageOf(planned, i, anew));
+    }
+    checkMatched(record, condition.place);
+    measurements_->addQuality(record);
+    if (anew) {
+        found = ofScene(condition.view, renderer_.sceneWarnings());
+        addOnce(found, warnings_.of(condition, planned.recipes));
+    }
+    Manifest part = emptyManifest(protocol_, folder_);
+    part.conditions = {record};
+    return nlohmann::json{{"warnings", found},
+                          {"manifest", nlohmann::json::parse(manifestText(part))}}
+        .dump();
+}
+
+// What all conditions' units give, in the order of the protocol, without times.
+Manifest Generation::gathered() const {
+    Manifest manifest = emptyManifest(protocol_, folder_);
+    manifest.conditions.resize(protocol_.conditions.size());
+    for (const PlannedCondition& planned : plan_.conditions) {
+        ConditionRecord& record = manifest.conditions[planned.condition];
+        record = emptyCondition(protocol_, protocol_.conditions[planned.condition]);
+        record.images = conditionsOf(units_->result(planned.unit).value()).conditions.at(0).images;
+    }
+    return inOrder(manifest);
+}
+
+// A manifest's file has images by name, the protocol in its own order.
+Manifest Generation::inOrder(Manifest manifest) const {
+    for (std::size_t i = 0; i < manifest.conditions.size(); ++i) {
+        std::deque<ImageRecord> images;
+        for (const Role& role : protocol_.conditions[i].roles)
+            images.push_back(manifest.conditions[i].image(role.name));
+        manifest.conditions[i].images = images;
+    }
     return manifest;
+}
+
+std::string Generation::timed() {
+    Manifest manifest = gathered();
+    measurements_->addTimes(manifest, earlier_.manifest, driver_);
+    return manifestText(manifest);
+}
+
+std::string Generation::assembled() {
+    const double start = seconds();
+    const Manifest times = inOrder(parseManifest(units_->result(plan_.times).value(), folder_));
+    Manifest manifest = gathered();
+    manifest.timing = times.timing;
+    for (std::size_t i = 0; i < manifest.conditions.size(); ++i)
+        for (std::size_t j = 0; j < manifest.conditions[i].images.size(); ++j)
+            manifest.conditions[i].images[j].milliseconds =
+                times.conditions[i].images[j].milliseconds;
+    if (protocol_.boost)
+        boostImages(protocol_, manifest);
+    const std::vector<Image8> sheets = contactSheets(manifest);
+    for (std::size_t i = 0; i < sheets.size(); ++i)
+        manifest.contactSheets.push_back(
+            writtenPng(folder_, pageName("contact-sheet", i, sheets.size()), sheets[i]));
+    writeManifest(folder_ / manifestName, manifest);
+    result_.writing += seconds() - start;
+    return manifestText(manifest);
+}
+
+GenerateResult Generation::run() {
+    std::vector<const PlannedCondition*> anew; // since this run began, whoever does it
+    for (const PlannedCondition& planned : plan_.conditions)
+        if (!units_->isDone(planned.unit))
+            anew.push_back(&planned);
+    doTasks(*units_, tasks_, [&](double, const std::string& note) { tell(0, note); });
+    result_.manifest =
+        inOrder(parseManifest(units_->result(plan_.manifest).value(), folder_ / manifestName));
+    for (const PlannedCondition* planned : anew)
+        addOnce(result_.warnings, nlohmann::json::parse(units_->result(planned->unit).value())
+                                      .at("warnings")
+                                      .get<std::vector<std::string>>());
+    result_.kept = static_cast<int>(recipes_.size()) - result_.rendered;
+    result_.times = renderer_.times();
+    result_.measuring = measurements_->seconds();
+    return std::move(result_);
 }
 
 } // namespace
@@ -150,94 +236,7 @@ Manifest finishedPart(Manifest manifest) {
 GenerateResult generate(const Protocol& protocol, const Folders& folders, const fs::path& folder,
                         bool layers, const gl::Driver& driver, const Announce& announce,
                         std::string_view code) {
-    const std::vector<PlannedImage> images = plan(protocol);
-    SceneHashes scenes(folders);
-    std::vector<Recipe> recipes; // all first: a mistake shows before the first image, not after
-    recipes.reserve(images.size());
-    for (const PlannedImage& image : images)
-        recipes.push_back(makeRecipe(protocol, protocol.conditions[image.condition], image.member,
-                                     scenes, driver, code));
-    removeUnfinishedFiles(folder);
-    GenerateResult result;
-    result.manifest = emptyManifest(protocol, driver);
-    result.manifest.folder = folder;
-    for (const Condition& condition : protocol.conditions)
-        result.manifest.conditions.push_back(emptyPair(protocol, condition));
-    const Earlier earlier = earlierRuns(folder, result.manifest, result.warnings);
-    result.manifest.timing = earlier.timing;
-
-    RecipeRenderer renderer(folders);
-    Measurements measurements(protocol, folder, byView(recipes), renderer);
-    Warnings warnings(protocol, renderer);
-    std::set<std::string> anew; // conditions of which an image was rendered
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        const PlannedImage& image = images[i];
-        announce(static_cast<int>(i), static_cast<int>(images.size()), image.file);
-        const Condition& condition = protocol.conditions[image.condition];
-        ConditionRecord& pair = result.manifest.conditions[image.condition];
-        const Role& role = condition.roles[static_cast<std::size_t>(image.member)];
-        ImageRecord& record = pair.image(role.name);
-        const auto known = earlier.images.find(image.file);
-        if (known != earlier.images.end() && proves(known->second, recipes[i], folder, layers)) {
-            record = known->second;
-            ++result.kept;
-        } else {
-            const bool exrs = layers || (known != earlier.images.end() &&
-                                         known->second.layers.contains("linear"));
-            const Rendering rendering = renderer.render(recipes[i], exrs);
-            addWarnings(result.warnings, condition.view, renderer.sceneWarnings());
-            anew.insert(condition.id);
-            const double start = seconds();
-            record = written(rendering, image.file, folder, exrs);
-            result.writing += seconds() - start;
-            ++result.rendered;
-        }
-        record.role = role.name;
-        record.name = role.technique;
-        record.recipe = recipes[i];
-        if (isFinished(pair)) {
-            checkMatched(pair, condition.place);
-            measurements.complete(result.manifest, pair);
-            if (anew.contains(condition.id))
-                add(result.warnings, warnings.of(condition, recipesOf(pair)));
-            writeManifest(folder / unfinishedName, finishedPart(result.manifest));
-        }
-    }
-    result.times = renderer.times();
-    result.measuring = measurements.seconds();
-
-    const double start = seconds();
-    if (protocol.boost)
-        boostImages(protocol, result.manifest);
-    const std::vector<Image8> sheets = contactSheets(result.manifest);
-    for (std::size_t i = 0; i < sheets.size(); ++i)
-        result.manifest.contactSheets.push_back(
-            writtenPng(folder, pageName("contact-sheet", i, sheets.size()), sheets[i]));
-    result.writing += seconds() - start;
-    writeManifest(folder / manifestName, result.manifest);
-    fs::remove(folder / unfinishedName);
-    return result;
-}
-
-std::vector<std::string> check(const Protocol& protocol, const Folders& folders,
-                               const gl::Driver& driver, const Announce& announce) {
-    SceneHashes scenes(folders);
-    RecipeRenderer renderer(folders);
-    Warnings warnings(protocol, renderer);
-    std::vector<std::string> found;
-    std::vector<std::vector<Recipe>> recipes(protocol.conditions.size());
-    const std::vector<PlannedImage> images = plan(protocol);
-    for (std::size_t i = 0; i < images.size(); ++i) {
-        announce(static_cast<int>(i), static_cast<int>(images.size()), images[i].file);
-        const Condition& condition = protocol.conditions[images[i].condition];
-        std::vector<Recipe>& own = recipes[images[i].condition];
-        own.push_back(makeRecipe(protocol, condition, images[i].member, scenes, driver));
-        if (own.size() < condition.roles.size())
-            continue;
-        add(found, warnings.of(condition, own));
-        addWarnings(found, condition.view, renderer.sceneWarnings());
-    }
-    return found;
+    return Generation(protocol, folders, folder, layers, driver, announce, code).run();
 }
 
 } // namespace obscura

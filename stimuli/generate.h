@@ -12,26 +12,32 @@ namespace obscura {
 
 struct GenerateResult {
     Manifest manifest;
-    int rendered = 0, kept = 0; // images
+    int rendered = 0, kept = 0; // images: by this process; those that it found, or others rendered
     StageTimes times;           // of those rendered
-    // What the scenes that were loaded use and we do not show; what an earlier run's manifest
-    // lacks, for which its images are made anew; and what makes new images worthless
-    // (stimuli/warnings.h).
+    // What the scenes that were loaded use and we do not show, and what makes images worthless
+    // (stimuli/warnings.h), of every condition rendered since this run began, whoever did; what an
+    // earlier run's manifest lacks, for which its images are made anew.
     std::vector<std::string> warnings;
     double writing = 0;   // seconds: encoding and flushing files, and the contact sheet
     double measuring = 0; // seconds: references, errors, predictions and times
 };
 
-// Called before each image with how many are done, of how many, and its file name.
+// Called before each image with how many are done, by whichever process, of how many, and its file
+// name; or what is waited for.
 using Announce = std::function<void(int done, int total, const std::string& file)>;
 
 // Carries out a protocol's plan into `folder`: a PNG per image and one of its visibility,
 // with `layers` also linear EXRs ("linear", "visibility", "albedo", "depth", "normal"); then the
 // contact sheet, contact-sheet.png or pages of it; last manifest.json. An image is kept when the
-// manifest of an earlier run, also of an interrupted one, proves that the same recipe made the very
-// bytes on disk, those of its layers included; an image that has EXRs keeps having them, also when
-// it is made anew. The members of a pair must have equal inputs before occlusion, or nothing is
-// published: an Error. `code` is the hash of what renders.
+// manifest of an earlier run, or a condition that an interrupted one had finished, proves that the
+// same recipe made the very bytes on disk, those of its layers included; an image that has EXRs
+// keeps having them, also when it is made anew. The members of a pair must have equal inputs before
+// occlusion, or nothing is published: an Error. `code` is the hash of what renders.
+//
+// Processes that do the same in one folder at the same time share the work (base/units.h): a unit
+// is a condition, then the times of all techniques, which one process measures while the others
+// wait, then contact sheet and manifest. But for times, every file is what one process would have
+// written.
 GenerateResult generate(const Protocol& protocol, const Folders& folders,
                         const std::filesystem::path& folder, bool layers, const gl::Driver& driver,
                         const Announce& announce, std::string_view code = imageCode());

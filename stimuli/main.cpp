@@ -34,8 +34,8 @@ void warn(const std::vector<std::string>& warnings) {
 void report(const GenerateResult& result, const fs::path& folder) {
     warn(result.warnings);
     const StageTimes& t = result.times;
-    fmt::print("{} images rendered, {} kept, in {}\n", result.rendered, result.kept,
-               folder.string());
+    fmt::print("{} images rendered, {} kept or rendered by others, in {}\n", result.rendered,
+               result.kept, folder.string());
     if (result.rendered > 0)
         fmt::print(
             "seconds: scenes and shadow maps {:.1f}, G-buffer {:.1f}, light {:.1f}, occlusion "
@@ -123,7 +123,9 @@ int run(CLI::App& app, int argc, char** argv) {
     matching->add_option("--radius", radius, "only this one of the study's radii, metres")
         ->check(numberFrom(1e-4, 1e4));
     takesProtocol(app.add_option("protocol", protocolPath, "study, TOML"));
-    app.add_option("--out", out, "stimulus folder; default stimuli-NAME");
+    app.add_option("--out", out,
+                   "stimulus folder; default stimuli-NAME; processes of the same command, on any "
+                   "machines that see it, share the work");
     app.add_option("--scenes", folders.scenes, "folder of glTF scenes; default OBSCURA_SCENES");
     app.add_option("--device", device, "render with this device of obscura-render --devices");
     app.add_flag("--layers", layers, "write linear EXR of image, visibility and G-buffer as well");

@@ -1,12 +1,17 @@
 #include "stimuli/measurements.h"
 
 #include "image/canvas.h"
+#include "matching/anchor.h"
 #include "metrics/color_video_vdp.h"
+#include "stimuli/boost.h"
+#include "stimuli/image_files.h"
 #include "stimuli/times.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 
@@ -48,7 +53,33 @@ std::string timedPart(const Recipe& recipe) {
 
 bool isTimed(const Recipe& recipe) { return recipe.technique != "ray_traced"; }
 
-bool isThere(const ImageRecord& image) { return !image.image.path.empty(); }
+// Adds to a sum of seconds what passes while it lives.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& sum) : sum_(sum) {}
+    ~Stopwatch() {
+        sum_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& sum_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// The times of the same images, that an earlier manifest has.
+void keepTimes(Manifest& manifest, const Manifest& earlier) {
+    std::map<std::string, const ImageRecord*> known; // by the recipe's hash
+    for (const ConditionRecord& condition : earlier.conditions)
+        for (const ImageRecord& image : condition.images)
+            known[image.recipe.sha256()] = &image;
+    for (ConditionRecord& condition : manifest.conditions)
+        for (ImageRecord& image : condition.images)
+            if (const auto found = known.find(image.recipe.sha256());
+                found != known.end() && renderedOf(*found->second).sha256 == image.image.sha256)
+                image.milliseconds = found->second->milliseconds;
+}
 
 } // namespace
 
@@ -76,16 +107,14 @@ std::vector<Recipe> recipesOf(const ConditionRecord& condition) {
 
 Measurements::Measurements(const Protocol& protocol, std::filesystem::path folder,
                            std::map<std::string, std::vector<Recipe>> recipes,
-                           RecipeRenderer& renderer)
+                           RecipeRenderer& renderer, Units& units, std::function<void()> waiting)
     : protocol_(protocol), folder_(std::move(folder)), recipes_(std::move(recipes)),
-      renderer_(renderer) {}
+      renderer_(renderer), units_(units), waiting_(std::move(waiting)) {}
 
 const Measurements::Reference& Measurements::reference(const Recipe& recipe) {
     Reference& known = references_[recipe.sha256()];
     if (known.shown.empty()) {
-        Rendering rendering = renderer_.render(recipe);
-        known.image = std::move(rendering.image);
-        known.visibility = quantised(rendering.visibility);
+        known = shared(recipe);
         known.shown = Probe(renderer_.subject(recipe), recipe.view.camera, recipe.width,
                             recipe.height, recipe.normals, recipe.seed)
                           .shown();
@@ -93,9 +122,39 @@ const Measurements::Reference& Measurements::reference(const Recipe& recipe) {
     return known;
 }
 
+// Its pictures, which this process or another renders. Where another's have gone since, it does so
+// for itself.
+Measurements::Reference Measurements::shared(const Recipe& recipe) {
+    std::optional<Reference> own;
+    const auto render = [&] {
+        const Rendering rendering = renderer_.render(recipe);
+        own = Reference{rendering.image, quantised(rendering.visibility), {}};
+    };
+    const std::string name = fmt::format("reference-{}", recipe.sha256().substr(0, 16));
+    const std::string image = fmt::format("units/{}.png", name),
+                      visibility = fmt::format("units/{}_ao.png", name);
+    const std::string text = units_.require(
+        name,
+        [&] {
+            render();
+            return nlohmann::json{writtenPng(folder_, image, own->image).sha256,
+                                  writtenPng(folder_, visibility, own->visibility).sha256}
+                .dump();
+        },
+        waiting_);
+    if (own)
+        return *own;
+    const auto hashes = nlohmann::json::parse(text).get<std::array<std::string, 2>>();
+    if (intact(folder_, {image, hashes[0]}) && intact(folder_, {visibility, hashes[1]}))
+        return {readImage8(folder_ / image, 3), readImage8(folder_ / visibility, 1), {}};
+    render();
+    return *own;
+}
+
 // Of the files, whether just written or kept: 8 bits of visibility, whose rounding adds 0.001 to an
 // error that is not 0.
 void Measurements::addQuality(ConditionRecord& condition) {
+    const Stopwatch stopwatch(seconds_);
     const Recipe recipe = referenceOf(protocol_, recipesOf(condition));
     for (ImageRecord& image : condition.images) {
         if (image.quality && image.quality->referenceSha256 == recipe.sha256())
@@ -123,27 +182,36 @@ void Measurements::time(Manifest& manifest, const std::string& view) {
         timing_ = gl::honestTiming();
     const TechniqueTimes times =
         timesOf(probe, techniques, one.view.radius, timing_->timing, one.seed);
-    for (const auto& [part, place] : places)
-        times_[view][part] = times.milliseconds[place];
     manifest.timing->method = timing_->reason.substr(0, timing_->reason.find(':'));
     manifest.timing->starcraft[view] = times.starcraft;
+    for (ConditionRecord& condition : manifest.conditions)
+        for (ImageRecord& image : condition.images)
+            if (condition.view == view && isTimed(image.recipe))
+                image.milliseconds = times.milliseconds[places.at(timedPart(image.recipe))];
 }
 
-void Measurements::complete(Manifest& manifest, ConditionRecord& condition) {
-    const auto start = std::chrono::steady_clock::now();
-    addQuality(condition);
-    if (std::any_of(condition.images.begin(), condition.images.end(),
-                    [](const ImageRecord& image) {
-                        return isTimed(image.recipe) && !image.milliseconds;
-                    }) &&
-        !times_.contains(condition.view))
-        time(manifest, condition.view);
-    if (const auto times = times_.find(condition.view); times != times_.end())
-        for (ConditionRecord& each : manifest.conditions)
-            for (ImageRecord& image : each.images)
-                if (each.view == condition.view && isThere(image) && isTimed(image.recipe))
-                    image.milliseconds = times->second.at(timedPart(image.recipe));
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+void Measurements::addTimes(Manifest& manifest, const std::optional<Manifest>& earlier,
+                            const gl::Driver& driver) {
+    const Stopwatch stopwatch(seconds_);
+    manifest.timing = TimingRecord{"", driver.renderer, processorName(), {}};
+    if (earlier && earlier->timing && earlier->timing->renderer == manifest.timing->renderer &&
+        earlier->timing->processor == manifest.timing->processor) {
+        manifest.timing = earlier->timing;
+        keepTimes(manifest, *earlier);
+    }
+    std::vector<std::string> views; // in the order in which scenes are loaded once
+    for (const ConditionRecord& condition : manifest.conditions)
+        if (std::find(views.begin(), views.end(), condition.view) == views.end() &&
+            std::any_of(condition.images.begin(), condition.images.end(),
+                        [](const ImageRecord& image) {
+                            return isTimed(image.recipe) && !image.milliseconds;
+                        }))
+            views.push_back(condition.view);
+    std::stable_sort(views.begin(), views.end(), [&](const auto& a, const auto& b) {
+        return recipes_.at(a).front().sceneSha256 < recipes_.at(b).front().sceneSha256;
+    });
+    for (const std::string& view : views)
+        time(manifest, view);
 }
 
 } // namespace obscura

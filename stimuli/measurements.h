@@ -1,10 +1,12 @@
 #pragma once
 
+#include "base/units.h"
 #include "gl/timer.h"
 #include "renderer/probe.h"
 #include "renderer/render.h"
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -26,14 +28,21 @@ std::vector<Recipe> recipesOf(const ConditionRecord& condition);
 
 class Measurements {
   public:
-    // `recipes` are those of all images of the protocol, by view: all are timed together.
+    // `recipes` are those of all images of the protocol, by view: all are timed together. A
+    // reference is traced by one of the workers that share `units`; its pictures lie beside theirs.
     Measurements(const Protocol& protocol, std::filesystem::path folder,
-                 std::map<std::string, std::vector<Recipe>> recipes, RecipeRenderer& renderer);
+                 std::map<std::string, std::vector<Recipe>> recipes, RecipeRenderer& renderer,
+                 Units& units, std::function<void()> waiting);
 
-    // Gives the images of a condition, whose files are in the folder, what they lack: quality, if
-    // theirs is of another reference, and times. Where one image of a view lacks its time, all are
-    // timed anew, also those of earlier conditions in the manifest.
-    void complete(Manifest& manifest, ConditionRecord& condition);
+    // Gives the images of a condition, whose files are in the folder, the quality that they lack,
+    // or that is of another reference.
+    void addQuality(ConditionRecord& condition);
+
+    // Gives all images of a manifest their times, and the manifest what they were measured with.
+    // Those that `earlier` has of the same images are kept, if they are of this machine; where one
+    // image of a view lacks its time, all are timed anew.
+    void addTimes(Manifest& manifest, const std::optional<Manifest>& earlier,
+                  const gl::Driver& driver);
 
     double seconds() const { return seconds_; } // spent
 
@@ -43,17 +52,17 @@ class Measurements {
         std::vector<bool> shown;
     };
     const Reference& reference(const Recipe& recipe);
-    void addQuality(ConditionRecord& condition);
+    Reference shared(const Recipe& recipe);
     void time(Manifest& manifest, const std::string& view);
 
     const Protocol& protocol_;
     std::filesystem::path folder_;
     std::map<std::string, std::vector<Recipe>> recipes_;
     RecipeRenderer& renderer_;
+    Units& units_;
+    std::function<void()> waiting_;
     std::map<std::string, Reference> references_; // by the hash of the recipe
     std::optional<gl::TimingChoice> timing_;
-    // Milliseconds of what was timed now, by view and technique with its settings.
-    std::map<std::string, std::map<std::string, double>> times_;
     double seconds_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include "metrics/color_video_vdp.h"
 #include "renderer/probe.h"
 #include "stimuli/measurements.h"
+#include "stimuli/plan.h"
 
 #include <fmt/format.h>
 
@@ -44,6 +45,12 @@ double shareOf(const std::vector<bool>& shown) {
 }
 
 } // namespace
+
+Warnings::Warnings(const Protocol& protocol, RecipeRenderer& renderer)
+    : protocol_(protocol), renderer_(renderer) {
+    for (const PlannedImage& image : plan(protocol))
+        firstOf_.try_emplace(protocol.conditions[image.condition].view, image.condition);
+}
 
 const Rendering& Warnings::glance(const Recipe& recipe) {
     Recipe small = recipe;
@@ -97,7 +104,7 @@ std::string Warnings::alike(const Condition& condition, const Role& a, const Rol
 
 std::vector<std::string> Warnings::of(const Condition& condition, std::span<const Recipe> recipes) {
     std::vector<std::string> found;
-    if (views_.insert(condition.view).second)
+    if (protocol_.conditions[firstOf_.at(condition.view)].id == condition.id)
         found.push_back(faultOfView(condition, recipes));
     for (std::size_t i = 0; i < recipes.size(); ++i)
         for (std::size_t j = i + 1; j < recipes.size(); ++j)
@@ -107,6 +114,19 @@ std::vector<std::string> Warnings::of(const Condition& condition, std::span<cons
                     alike(condition, a, b, glance(recipes[i]).image, glance(recipes[j]).image));
     std::erase(found, "");
     return found;
+}
+
+std::vector<std::string> ofScene(const std::string& view, const std::vector<std::string>& found) {
+    std::vector<std::string> texts;
+    for (const std::string& each : found)
+        texts.push_back(fmt::format("scene \"{}\": {}", view, each));
+    return texts;
+}
+
+void addOnce(std::vector<std::string>& all, const std::vector<std::string>& more) {
+    for (const std::string& each : more)
+        if (std::find(all.begin(), all.end(), each) == all.end())
+            all.push_back(each);
 }
 
 } // namespace obscura

@@ -2,6 +2,7 @@
 
 #include "base/random.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,7 +11,9 @@
 
 #include <cstdint>
 #include <exception>
+#include <filesystem>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace obscura::test {
@@ -27,6 +30,20 @@ inline pid_t startWorker(const std::function<void()>& work) {
         fmt::print(stderr, "worker: {}\n", error.what());
     }
     ::_exit(1);
+}
+
+// A program in place of this process; what it says goes to the end of a log.
+[[noreturn]] inline void become(const std::vector<std::string>& command,
+                                const std::filesystem::path& log) {
+    const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
+    ::dup2(file, 1);
+    ::dup2(file, 2);
+    std::vector<char*> arguments;
+    for (const std::string& each : command)
+        arguments.push_back(const_cast<char*>(each.c_str()));
+    arguments.push_back(nullptr);
+    ::execv(arguments.front(), arguments.data());
+    ::_exit(127);
 }
 
 // Starts `workers` of them, and kills one after the other at random moments, each at most

@@ -217,27 +217,31 @@ std::string worldText(const World& world, const Outcomes& outcomes,
 
 } // namespace
 
-Outcomes outcomesOf(const StudySimulator& simulator, const World& world, int studies,
-                    std::uint64_t seed, const std::string& folder, int threads,
-                    const std::function<void(double)>& progress) {
+void Outcomes::add(const Outcomes& more) {
+    join(rejected, more.rejected);
+    join(covered, more.covered);
+    join(supported, more.supported);
+    anyClaim.hits += more.anyClaim.hits;
+    anyClaim.of += more.anyClaim.of;
+}
+
+Outcomes outcomesOf(const StudySimulator& simulator, const World& world, Block block,
+                    std::uint64_t seed, const std::string& folder, int threads) {
     Outcomes all;
     std::mutex mutex;
     forEachInParallel(
-        studies,
-        [&](int study) {
+        block.studies,
+        [&](int i) {
+            const int study = block.first + i;
             const fs::path file = fs::path(folder) / fmt::format("study-{}.csv", study);
             std::ofstream(file) << simulator.rows(
                 world.truth, world.people, seed * 1000003 + static_cast<std::uint64_t>(study));
             const Outcomes some = analysed(file, world, simulator.protocol());
             fs::remove(file);
             const std::lock_guard lock(mutex);
-            join(all.rejected, some.rejected);
-            join(all.covered, some.covered);
-            join(all.supported, some.supported);
-            all.anyClaim.hits += some.anyClaim.hits;
-            all.anyClaim.of += some.anyClaim.of;
+            all.add(some);
         },
-        progress, threads);
+        {}, threads);
     return all;
 }
 

@@ -3,7 +3,6 @@
 #include "validity/truths.h"
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -17,20 +16,28 @@ struct Rate {
         hits += hit;
         ++of;
     }
+    bool operator==(const Rate&) const = default;
 };
 struct Outcomes {
     std::map<std::string, Rate> rejected; // p < .05, by test
     std::map<std::string, Rate> covered;  // 95 % intervals that hold the truth
     Rate anyClaim;                        // some difference claimed after Holm, where there is none
     std::map<std::string, Rate> supported; // by claim, after Holm
+
+    void add(const Outcomes& more); // of other studies of the same world
+    bool operator==(const Outcomes&) const = default;
+};
+
+// Some of a world's studies, which are numbered from 0.
+struct Block {
+    int first = 0, studies = 0;
 };
 
 // Simulates, writes each study's CSV into `folder` (best in memory, such as /dev/shm), reads it as
-// the analysis does, and tests. Study i is the same on every machine and with any number of
-// threads.
-Outcomes outcomesOf(const StudySimulator& simulator, const World& world, int studies,
-                    std::uint64_t seed, const std::string& folder, int threads = 0,
-                    const std::function<void(double)>& progress = {});
+// the analysis does, and tests. Study i is the same on every machine, in every block and with any
+// number of threads.
+Outcomes outcomesOf(const StudySimulator& simulator, const World& world, Block block,
+                    std::uint64_t seed, const std::string& folder, int threads = 0);
 
 // The tables of all worlds in Markdown. `planned`: of each claim, the power that obscura-analysis
 // plan says for the world "effect".

@@ -1,5 +1,6 @@
 #include "bench/motion/steadiness.h"
 
+#include "bench/measure/machine.h"
 #include "bench/motion/temporal.h"
 #include "bench/stability/stability.h"
 
@@ -50,6 +51,7 @@ std::string failuresOf(const Settings& matched, const std::vector<std::string>& 
     options.folder = folder;
     options.tests = wanted;
     options.anew = true; // an earlier search may have had another program
+    options.about = fmt::format("{}, {}\n", programName(), gl::currentDriver().renderer);
     std::string text;
     for (const StabilityCell& cell : runStability(options, [](double, const std::string&) {}))
         for (const StabilityTest& test : tests)

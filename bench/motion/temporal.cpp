@@ -37,39 +37,47 @@ double occlusion(const Image& visibility) {
     return sum;
 }
 
-class Measurement {
+} // namespace
+
+class TemporalMeasurement::Parts {
   public:
-    Measurement(const TemporalStudy& study, const TemporalProgress& progress)
-        : study_(study), progress_(progress),
-          shots_(study.scene, study.configurations, study.effort.width, study.effort.height),
-          all_(study.configurations.size()) {
+    explicit Parts(TemporalStudy study)
+        : study_(std::move(study)),
+          shots_(study_.scene, study_.configurations, study_.effort.width, study_.effort.height),
+          all_(study_.configurations.size()) {
+        if (study_.effort.frames < 3)
+            throw Error(
+                fmt::format("expected at least 3 frames a test, found {}", study_.effort.frames));
         std::iota(all_.begin(), all_.end(), std::size_t{0});
         for (const std::size_t i : all_)
-            (accumulatedFrames(study.configurations[i].settings) > 1 ? accumulating_ : single_)
+            (accumulatedFrames(study_.configurations[i].settings) > 1 ? accumulating_ : single_)
                 .push_back(i);
     }
 
-    std::vector<StabilityCell> run() {
-        for (const std::string& id : study_.effort.tests) {
-            const TemporalTest& test = temporalTest(id);
-            test.cyclesNoise ? measureStill(test) : measureMotion(test);
-            ++testsDone_;
+    std::vector<Image> truths(const TemporalTest& test, const Tell& tell) const {
+        std::vector<Image> truths;
+        for (int frame = 0; !test.cyclesNoise && frame < study_.effort.frames; ++frame) {
+            if (tell)
+                tell();
+            if (!isStill(test, frame))
+                truths.push_back(truthOf(shots_.take(cameraOf(test, frame), noiseSeed, {})));
         }
-        if (auto animated = writeAnimation(study_, shots_, noiseSeed, records_))
-            cells_.push_back(std::move(*animated));
-        return std::move(cells_);
+        return truths;
+    }
+
+    TemporalFinding measure(const TemporalTest& test, const std::vector<Image>& truths,
+                            const Tell& tell) const {
+        return test.cyclesNoise ? measureStill(test, tell) : measureMotion(test, truths, tell);
     }
 
   private:
-    void tell(const TemporalTest& test, int frame) const {
-        const double share = static_cast<double>(frame) / study_.effort.frames;
-        if (progress_)
-            progress_((testsDone_ + share) / static_cast<double>(study_.effort.tests.size()),
-                      std::string(test.test.id));
-    }
-
     Camera cameraOf(const TemporalTest& test, int frame) const {
         return test.camera(study_.start, frame, study_.effort.frames);
+    }
+
+    // The camera is where it was.
+    bool isStill(const TemporalTest& test, int frame) const {
+        return frame > 0 && sameView(cameraOf(test, frame), cameraOf(test, frame - 1));
     }
 
     Image truthOf(const Shot& shot) const {
@@ -80,7 +88,8 @@ class Measurement {
         return shots_.truth(shot.surfaces, settings);
     }
 
-    void measureStill(const TemporalTest& test) {
+    TemporalFinding measureStill(const TemporalTest& test, const Tell& tell) const {
+        TemporalFinding finding;
         std::vector<StillNoise> noises(all_.size());
         std::vector<Image> last(all_.size());
         std::vector<bool> shown;
@@ -92,7 +101,8 @@ class Measurement {
             shown = std::move(shot.shown);
         };
         for (int frame = 0; frame < study_.effort.frames; ++frame) {
-            tell(test, frame);
+            if (tell)
+                tell();
             const Camera camera = cameraOf(test, frame);
             if (!single_.empty())
                 add(shots_.take(camera, noiseSeed + static_cast<std::uint64_t>(frame), single_),
@@ -107,30 +117,34 @@ class Measurement {
             const Magnitudes values = magnitudes(deviation, shown);
             const std::string picture =
                 writePicture(i, test, std::array{last[i], amplified(deviation)});
-            addCell(i, test, test.test.measure, values.mean(), picture,
+            addCell(finding, i, test, test.test.measure, values.mean(), picture,
                     values.percentile(1) > 0 ? "" : "no seed changes it");
-            addCell(i, test, "deviation over frames, 99th percentile", values.percentile(0.99));
+            addCell(finding, i, test, "deviation over frames, 99th percentile",
+                    values.percentile(0.99));
         }
+        return finding;
     }
 
-    void measureMotion(const TemporalTest& test) {
+    TemporalFinding measureMotion(const TemporalTest& test, const std::vector<Image>& truths,
+                                  const Tell& tell) const {
         std::vector<Errors> errors(all_.size());
-        MotionRecord record{&test, {}, {}, {}};
+        auto truth = truths.begin();
         std::optional<Shot> last;
         std::optional<FrameStep> lastStep;
         NewlySeen newly(static_cast<std::size_t>(study_.effort.width * study_.effort.height));
         int unmoved = 0; // frames since the camera moved
         for (int frame = 0; frame < study_.effort.frames; ++frame) {
-            tell(test, frame);
+            if (tell)
+                tell();
             const Camera camera = cameraOf(test, frame);
-            const bool still = last && sameView(camera, cameraOf(test, frame - 1));
+            const bool still = isStill(test, frame);
             unmoved = still ? unmoved + 1 : 0;
             // Before a still camera nothing changes, but what came into sight by its last move.
             if (still && (!lastStep || unmoved >= NewlySeen::frames))
                 continue;
             Shot shot =
                 last ? shots_.next(camera, noiseSeed, all_) : shots_.take(camera, noiseSeed, all_);
-            shot.truth = still ? last->truth : truthOf(shot);
+            shot.truth = still ? last->truth : *truth++;
             if (last) {
                 FrameStep step = stepBetween(*last, shot);
                 newly.step(step.back);
@@ -144,13 +158,12 @@ class Measurement {
                 for (const std::size_t i : all_)
                     errors[i].motion.start(shot.visibilities[i]);
             }
-            if (!still)
-                record.truths.push_back(shot.truth);
             last = std::move(shot);
         }
+        TemporalFinding finding;
         for (const std::size_t i : all_)
-            addMotionCells(i, errors[i], record);
-        records_.push_back(std::move(record));
+            addMotionCells(finding, i, test, errors[i], truths);
+        return finding;
     }
 
     // Of one configuration.
@@ -181,37 +194,38 @@ class Measurement {
                 errors[i].newGhosts);
     }
 
-    void addMotionCells(std::size_t i, const Errors& errors, MotionRecord& record) {
-        const TemporalTest& test = *record.test;
+    void addMotionCells(TemporalFinding& finding, std::size_t i, const TemporalTest& test,
+                        const Errors& errors, const std::vector<Image>& truths) const {
         const MotionError& error = errors.motion;
-        const Image& truth = record.truths[static_cast<std::size_t>(error.worstFrame())];
-        record.unreal.push_back(error.unreal().mean());
-        record.truthfulness.push_back(occlusion(error.worst()) / occlusion(truth));
+        const Image& truth = truths[static_cast<std::size_t>(error.worstFrame())];
+        finding.truthfulness.push_back(occlusion(error.worst()) / occlusion(truth));
         const std::string picture = writePicture(
             i, test, std::array{error.worst(), truth, amplified(error.unrealPicture())});
-        addCell(i, test, test.test.measure, record.unreal.back(), picture,
+        addCell(finding, i, test, test.test.measure, error.unreal().mean(), picture,
                 fmt::format("shows {:.0f} % of the truth's occlusion",
-                            100 * record.truthfulness.back()));
-        addCell(i, test, unrealChange99, error.unreal().percentile(0.99));
-        addCell(i, test, "unreal change pixel by pixel, mean", error.unrealAtPixels().mean());
-        addCell(i, test, "unreal change pixel by pixel, 99th percentile",
+                            100 * finding.truthfulness.back()));
+        addCell(finding, i, test, unrealChange99, error.unreal().percentile(0.99));
+        addCell(finding, i, test, "unreal change pixel by pixel, mean",
+                error.unrealAtPixels().mean());
+        addCell(finding, i, test, "unreal change pixel by pixel, 99th percentile",
                 error.unrealAtPixels().percentile(0.99));
-        addCell(i, test, "warping error", error.warpingError());
-        addCell(i, test, "error against the truth, RMSE", errors.everywhere.rmse());
+        addCell(finding, i, test, "warping error", error.warpingError());
+        addCell(finding, i, test, "error against the truth, RMSE", errors.everywhere.rmse());
         if (errors.newlySeen.count() > 0)
-            addCell(i, test, errorNewlySeen, errors.newlySeen.rmse(), "",
+            addCell(finding, i, test, errorNewlySeen, errors.newlySeen.rmse(), "",
                     fmt::format("{:.1f} % of all points",
                                 100.0 * static_cast<double>(errors.newlySeen.count()) /
                                     static_cast<double>(errors.everywhere.count())));
         if (errors.ghosts.count() > 0)
-            addCell(i, test, "ghosts: difference from its still picture, RMSE",
+            addCell(finding, i, test, "ghosts: difference from its still picture, RMSE",
                     errors.ghosts.rmse());
         if (errors.newGhosts.count() > 0)
-            addCell(i, test, "ghosts where newly seen, RMSE", errors.newGhosts.rmse());
+            addCell(finding, i, test, "ghosts where newly seen, RMSE", errors.newGhosts.rmse());
         if (error.second().count() == 0)
             return;
-        addCell(i, test, "second difference, mean", error.second().mean());
-        addCell(i, test, "second difference, 99th percentile", error.second().percentile(0.99));
+        addCell(finding, i, test, "second difference, mean", error.second().mean());
+        addCell(finding, i, test, "second difference, 99th percentile",
+                error.second().percentile(0.99));
     }
 
     std::string writePicture(std::size_t configuration, const TemporalTest& test,
@@ -221,23 +235,49 @@ class Measurement {
         return name;
     }
 
-    void addCell(std::size_t configuration, const TemporalTest& test, std::string_view measure,
-                 double value, const std::string& picture = {}, const std::string& note = {}) {
+    void addCell(TemporalFinding& finding, std::size_t configuration, const TemporalTest& test,
+                 std::string_view measure, double value, const std::string& picture = {},
+                 const std::string& note = {}) const {
         const NamedSettings& named = study_.configurations[configuration];
-        cells_.push_back({named.name, std::string(named.settings.technique().id),
-                          std::string(test.test.id), std::string(measure), value, picture, note});
+        finding.cells.push_back({named.name, std::string(named.settings.technique().id),
+                                 std::string(test.test.id), std::string(measure), value, picture,
+                                 note});
     }
 
-    const TemporalStudy& study_;
-    const TemporalProgress& progress_;
+    TemporalStudy study_;
     Shots shots_;
     std::vector<std::size_t> all_, single_, accumulating_; // configurations
-    std::vector<MotionRecord> records_;
-    std::vector<StabilityCell> cells_;
-    int testsDone_ = 0;
 };
 
-} // namespace
+TemporalMeasurement::TemporalMeasurement(TemporalStudy study)
+    : parts_(std::make_unique<Parts>(std::move(study))) {}
+TemporalMeasurement::~TemporalMeasurement() = default;
+
+std::vector<Image> TemporalMeasurement::truths(const TemporalTest& test, const Tell& tell) const {
+    return parts_->truths(test, tell);
+}
+
+TemporalFinding TemporalMeasurement::measure(const TemporalTest& test,
+                                             const std::vector<Image>& truths,
+                                             const Tell& tell) const {
+    return parts_->measure(test, truths, tell);
+}
+
+std::optional<StabilityCell> animationOf(const TemporalStudy& study,
+                                         const std::vector<TemporalFinding>& findings,
+                                         const std::vector<std::vector<Image>>& truths) {
+    std::vector<MotionRecord> records;
+    for (std::size_t i = 0; i < findings.size(); ++i) {
+        const TemporalTest& test = temporalTest(study.effort.tests[i]);
+        MotionRecord record{&test, truths[i], {}, findings[i].truthfulness};
+        for (const StabilityCell& cell : findings[i].cells)
+            if (cell.measure == test.test.measure)
+                record.unreal.push_back(cell.value);
+        if (!test.cyclesNoise)
+            records.push_back(std::move(record));
+    }
+    return writeAnimation(study, noiseSeed, records);
+}
 
 TemporalEffort fullTemporalEffort() {
     return {256, 144, 60, 256, {"still", "dolly", "orbit", "turn", "cut"}};
@@ -247,10 +287,25 @@ TemporalEffort quickTemporalEffort() { return {192, 108, 12, 128, {"still", "dol
 
 std::vector<StabilityCell> measureTemporal(const TemporalStudy& study,
                                            const TemporalProgress& progress) {
-    if (study.effort.frames < 3)
-        throw Error(
-            fmt::format("expected at least 3 frames a test, found {}", study.effort.frames));
-    return Measurement(study, progress).run();
+    const TemporalMeasurement measurement(study);
+    const double steps = 2.0 * static_cast<double>(study.effort.tests.size()) * study.effort.frames;
+    double done = 0;
+    std::vector<StabilityCell> cells;
+    std::vector<TemporalFinding> findings;
+    std::vector<std::vector<Image>> truths;
+    for (const std::string& id : study.effort.tests) {
+        const TemporalTest& test = temporalTest(id);
+        const auto tell = [&] {
+            if (progress)
+                progress(done++ / steps, id);
+        };
+        truths.push_back(measurement.truths(test, tell));
+        findings.push_back(measurement.measure(test, truths.back(), tell));
+        cells.insert(cells.end(), findings.back().cells.begin(), findings.back().cells.end());
+    }
+    if (auto animated = animationOf(study, findings, truths))
+        cells.push_back(std::move(*animated));
+    return cells;
 }
 
 } // namespace obscura

@@ -1,8 +1,12 @@
 #pragma once
 
 #include "bench/motion/temporal_study.h"
+#include "bench/motion/temporal_tests.h"
 
 #include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
 
 namespace obscura {
 
@@ -28,11 +32,48 @@ namespace obscura {
 TemporalEffort fullTemporalEffort();
 TemporalEffort quickTemporalEffort(); // smaller, fewer frames and rays, and two paths
 
+// What one test finds.
+struct TemporalFinding {
+    std::vector<StabilityCell> cells;
+    std::vector<double> truthfulness; // of each configuration (MotionRecord); of moving cameras
+};
+
+// One test after the other, of all configurations of a study: frames are drawn once for all, and
+// shaders are compiled once for all tests. A study's configurations can be measured apart as well,
+// and tests too: nothing depends on the others. A GL context must be current.
+class TemporalMeasurement {
+  public:
+    // Fewer frames than 3 are an Error.
+    explicit TemporalMeasurement(TemporalStudy study);
+    ~TemporalMeasurement();
+    TemporalMeasurement(const TemporalMeasurement&) = delete;
+    TemporalMeasurement& operator=(const TemporalMeasurement&) = delete;
+
+    using Tell = std::function<void()>; // called before each frame
+
+    // The ray-traced truth of each frame that shows something else than the one before it; none for
+    // a test without motion. It has nothing to do with the configurations.
+    std::vector<Image> truths(const TemporalTest& test, const Tell& tell = {}) const;
+    // `truths` are those of the test. Writes pictures.
+    TemporalFinding measure(const TemporalTest& test, const std::vector<Image>& truths,
+                            const Tell& tell = {}) const;
+
+  private:
+    class Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+// The animation (temporal_animation.h) of tests that were measured; `findings` and `truths` are
+// theirs, in the order of the study's.
+std::optional<StabilityCell> animationOf(const TemporalStudy& study,
+                                         const std::vector<TemporalFinding>& findings,
+                                         const std::vector<std::vector<Image>>& truths);
+
 // Told the share done, 0 ... 1, and the test at hand.
 using TemporalProgress = std::function<void(double, const std::string&)>;
 
-// A GL context must be current. Fewer frames than 3, an unknown test or a file that cannot be
-// written is an Error.
+// All tests of a study, and the animation. A GL context must be current. Fewer frames than 3, an
+// unknown test or a file that cannot be written is an Error.
 std::vector<StabilityCell> measureTemporal(const TemporalStudy& study,
                                            const TemporalProgress& progress = {});
 

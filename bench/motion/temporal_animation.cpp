@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace obscura {
 
@@ -55,15 +56,17 @@ Image unrealChange(const Shot& now, const Shot& before, const FrameStep& step, s
 
 } // namespace
 
-std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Shots& shots,
-                                            std::uint64_t noiseSeed,
+std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, std::uint64_t noiseSeed,
                                             std::span<const MotionRecord> records) {
     const std::optional<Choice> choice = choose(study, records);
     if (!choice)
         return std::nullopt;
-    std::vector<std::size_t> which{choice->worst};
+    std::vector<NamedSettings> shown{study.configurations[choice->worst]};
     if (choice->best != choice->worst)
-        which.push_back(choice->best);
+        shown.push_back(study.configurations[choice->best]);
+    std::vector<std::size_t> which(shown.size());
+    std::iota(which.begin(), which.end(), std::size_t{0});
+    const Shots shots(study.scene, shown, study.effort.width, study.effort.height);
     const TemporalTest& test = *choice->record->test;
     std::vector<Image8> frames;
     std::optional<Shot> before;
@@ -77,14 +80,13 @@ std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Sh
             const FrameStep step = stepBetween(*before, shot);
             std::vector<AnimatedRow> rows;
             for (std::size_t i = 0; i < which.size(); ++i)
-                rows.push_back(
-                    {fmt::format("{}, {}", study.configurations[which[i]].name, test.test.id),
-                     shot.visibilities[i], unrealChange(shot, *before, step, i)});
+                rows.push_back({fmt::format("{}, {}", shown[i].name, test.test.id),
+                                shot.visibilities[i], unrealChange(shot, *before, step, i)});
             frames.push_back(animationFrame(rows, shot.truth));
         }
         before = std::move(shot);
     }
-    const NamedSettings& worst = study.configurations[choice->worst];
+    const NamedSettings& worst = shown.front();
     const std::string name =
         fs::path(pictureName(test.test.id, worst.name)).replace_extension("gif").string();
     writeGif(study.folder / name, frames, framesPerSecond);
@@ -97,8 +99,7 @@ std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Sh
                          name,
                          which.size() < 2 ? ""
                                           : fmt::format("below it the steadiest, {}: {:.3f}",
-                                                        study.configurations[choice->best].name,
-                                                        unreal(choice->best))};
+                                                        shown.back().name, unreal(choice->best))};
 }
 
 } // namespace obscura

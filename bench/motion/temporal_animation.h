@@ -21,8 +21,7 @@ struct MotionRecord {
 // because what shows nothing is steady; and only paths on which every frame differs. Returns the
 // cell of the worst technique, with the GIF in the study's folder as its picture; nothing if no
 // technique is left.
-std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, const Shots& shots,
-                                            std::uint64_t noiseSeed,
+std::optional<StabilityCell> writeAnimation(const TemporalStudy& study, std::uint64_t noiseSeed,
                                             std::span<const MotionRecord> records);
 
 } // namespace obscura

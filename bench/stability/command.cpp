@@ -114,7 +114,11 @@ std::vector<Command> stabilityCommands(CLI::App& app) {
     StabilityOptions& stability = options->stability;
     stability.folder = "stability";
     CLI::App* command = app.add_subcommand("stability", "where techniques fail");
-    command->add_option("--out", stability.folder, "result folder")->capture_default_str();
+    command
+        ->add_option("--out", stability.folder,
+                     "result folder; processes of the same command, on any machines that see it, "
+                     "share the work")
+        ->capture_default_str();
     command->add_option("--technique", stability.configurations,
                         "id, or \"id setting=value ...\"; may be repeated; default: all");
     std::vector<std::string> tests = stillTestIds();

@@ -4,13 +4,17 @@
 #include "bench/motion/temporal_tests.h"
 #include "bench/stability/csv.h"
 #include "bench/stability/failure_test.h"
+#include "bench/stability/finding_text.h"
+#include "bench/stability/motion_tasks.h"
 #include "bench/stability/page.h"
-#include "image/canvas.h"
+#include "bench/stability/still_tasks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
+#include <sstream>
 
 namespace obscura {
 
@@ -41,40 +45,6 @@ std::vector<const FailureTestRow*> rowsOf(const std::vector<std::string>& wanted
     std::erase_if(rows,
                   [&](const FailureTestRow* row) { return !contains(wanted, row->about.id); });
     return rows;
-}
-
-// A finding's picture: visibility, and beside it what is wrong with it.
-Image8 pictureOf(const Finding& finding, double fullColour) {
-    return sideBySide(grey(finding.picture), signedError(finding.picture, finding.expected,
-                                                         static_cast<float>(fullColour)));
-}
-
-// The cell with the truth's picture: visibility by ray tracing, and beside it what is seen.
-StabilityCell truthCell(const FailureTestRow& row, const FailureTest& test,
-                        const fs::path& folder) {
-    const std::string picture = pictureName(row.about.id, truthName);
-    writePng(folder / picture, sideBySide(grey(test.view().truth()), grey(test.view().lit())));
-    return {truthName, "", std::string(row.about.id), std::string(row.about.measure), 0, picture};
-}
-
-std::vector<StabilityCell> cellsOf(const FailureTestRow& row, const FailureTest& test,
-                                   const TestedTechnique& technique, const fs::path& folder) {
-    const Finding finding = test.measure(technique);
-    const StabilityCell common{technique.configuration(),
-                               std::string(technique.settings().technique().id),
-                               std::string(row.about.id), std::string(row.about.measure)};
-    const std::string picture = pictureName(row.about.id, technique.configuration());
-    writePng(folder / picture, pictureOf(finding, row.about.fail));
-    std::vector<StabilityCell> cells(1 + finding.others.size(), common);
-    cells[0].value = finding.value;
-    cells[0].picture = picture;
-    cells[0].note = finding.note;
-    for (std::size_t i = 0; i < finding.others.size(); ++i) {
-        cells[i + 1].measure = finding.others[i].name;
-        cells[i + 1].value = finding.others[i].value;
-        cells[i + 1].note = finding.others[i].note;
-    }
-    return cells;
 }
 
 } // namespace
@@ -115,44 +85,147 @@ std::vector<StabilityTest> testsOf(const std::vector<StabilityCell>& cells) {
     return tests;
 }
 
-// The truth has a row of its own, which shows what its noise leaves: a technique below it cannot be
-// told from a perfect one.
-std::vector<StabilityCell> cellsInMotion(const Motion& motion,
-                                         const std::vector<TestedTechnique>& tested,
-                                         const fs::path& folder, const TemporalProgress& progress) {
-    std::vector<NamedSettings> configurations;
-    Settings truth(technique("ray_traced"));
-    truth.set("rays", motion.effort.rays);
-    configurations.push_back({truthName, truth});
-    for (const TestedTechnique& each : tested)
-        configurations.push_back({each.configuration(), each.settings()});
-    for (NamedSettings& each : configurations)
-        if (each.settings.has("radius"))
-            each.settings.set("radius", motion.radius);
-    return measureTemporal(
-        {motion.scene, motion.start, motion.radius, configurations, motion.effort, folder},
-        progress);
+std::vector<std::string> linesOf(const std::string& text) {
+    std::istringstream stream(text);
+    std::vector<std::string> lines;
+    for (std::string line; std::getline(stream, line);)
+        lines.push_back(line);
+    return lines;
 }
 
-// What the folder has of other tests and configurations, measured alike.
-std::vector<StabilityCell> keptCells(const StabilityOptions& options) {
-    const fs::path csv = options.folder / "stability.csv", json = options.folder / "stability.json";
-    if (options.anew || !fs::exists(csv))
-        return {};
-    if (!fs::exists(json) || readFile(json) != options.about)
+// One run of the tests, which other processes may do as well.
+class StabilityRun {
+  public:
+    explicit StabilityRun(const StabilityOptions& options);
+    std::vector<StabilityCell> run(const StabilityProgress& progress);
+
+  private:
+    void claimFolder() const;
+    std::vector<Task> tasks();
+    bool stands(const std::string& unit, const std::string& result) const;
+    std::vector<StabilityCell> kept() const;
+    std::vector<StabilityCell> found() const;
+    std::string assembled() const;
+
+    const StabilityOptions& options_;
+    fs::path csv_, page_;
+    StillTasks still_;
+    std::optional<MotionTasks> motion_;
+    std::vector<std::string> inOrder_; // units that have cells
+    std::string pageUnit_;
+    std::vector<Task> tasks_;
+    std::optional<Units> units_;
+};
+
+// Ends the names of units, so that those of several programs and devices can lie in one folder.
+std::string markOf(const StabilityOptions& options) {
+    return sha256(fmt::format("{} {} {}", options.about, options.size.width, options.size.height))
+        .substr(0, 12);
+}
+
+StabilityRun::StabilityRun(const StabilityOptions& options)
+    : options_(options), csv_(options.folder / "stability.csv"),
+      page_(options.folder / "stability.html"),
+      still_(rowsOf(options.tests), options.configurations, options.size, options.folder,
+             markOf(options)) {
+    for (const std::string& configuration : options.configurations)
+        TestedTechnique{configuration}; // all names are checked before the first is run
+    claimFolder();
+    if (options.motion)
+        motion_.emplace(*options.motion, options.configurations, options.folder, markOf(options));
+    tasks_ = tasks();
+    units_.emplace(options.folder, "obscura-bench stability, format 1\n", unitsOf(tasks_),
+                   std::chrono::minutes(2),
+                   [this](const auto& unit, const auto& result) { return stands(unit, result); });
+}
+
+// The folder's numbers are of one program, device, size and motion.
+void StabilityRun::claimFolder() const {
+    const fs::path json = options_.folder / "stability.json";
+    if (options_.anew) {
+        writeFile(json, options_.about);
+        return;
+    }
+    const bool isNew = !fs::exists(csv_) && writeNewFile(json, options_.about);
+    if (!isNew && (!fs::exists(json) || readFile(json) != options_.about))
         throw Error({json.string(), 0, 0, {}},
                     "expected the program, device, size and motion that the folder's numbers were "
                     "measured with, found others; name another folder by --out");
-    std::vector<std::string> tests = options.tests;
-    if (options.motion)
-        tests.insert(tests.end(), options.motion->effort.tests.begin(),
-                     options.motion->effort.tests.end());
-    std::vector<StabilityCell> cells = readStabilityCsv(csv);
+}
+
+std::vector<Task> StabilityRun::tasks() {
+    std::vector<Task> tasks = still_.tasks();
+    for (const Task& task : tasks)
+        inOrder_.push_back(task.unit.name);
+    if (motion_) {
+        std::vector<Task> more = motion_->tasks(
+            [this](const std::string& unit) { return units_->result(unit).value(); });
+        // First what takes long, so that nobody waits for it at the end.
+        tasks.insert(tasks.begin(), more.begin(), more.end());
+        for (const std::string& unit : motion_->inOrder())
+            inOrder_.push_back(unit);
+    }
+    pageUnit_ =
+        fmt::format("page {}", sha256(fmt::format("{}", fmt::join(inOrder_, "\n"))).substr(0, 12));
+    tasks.push_back({{pageUnit_, "page", 1}, [this] { return assembled(); }, 3});
+    return tasks;
+}
+
+// Whether pictures are there, and of the page whether the CSV still has the rows.
+bool StabilityRun::stands(const std::string& unit, const std::string& result) const {
+    if (unit == pageUnit_) {
+        if (!fs::exists(page_) || !fs::exists(csv_))
+            return false;
+        const std::vector<std::string> lines = linesOf(readFile(csv_)), own = linesOf(result);
+        const std::set<std::string> known(lines.begin(), lines.end());
+        return std::all_of(own.begin(), own.end(),
+                           [&](const std::string& line) { return known.contains(line); });
+    }
+    if (!contains(inOrder_, unit))
+        return motion_->stands(unit, result);
+    const TemporalFinding finding = readFinding(result);
+    return std::all_of(finding.cells.begin(), finding.cells.end(), [&](const StabilityCell& cell) {
+        return cell.picture.empty() || fs::exists(options_.folder / cell.picture);
+    });
+}
+
+// What the folder's CSV has of other tests and configurations.
+std::vector<StabilityCell> StabilityRun::kept() const {
+    if (options_.anew || !fs::exists(csv_))
+        return {};
+    std::vector<std::string> tests = options_.tests;
+    if (options_.motion)
+        tests.insert(tests.end(), options_.motion->effort.tests.begin(),
+                     options_.motion->effort.tests.end());
+    std::vector<StabilityCell> cells = readStabilityCsv(csv_);
     std::erase_if(cells, [&](const StabilityCell& cell) {
         return contains(tests, cell.test) &&
-               (contains(options.configurations, cell.configuration) ||
+               (contains(options_.configurations, cell.configuration) ||
                 cell.configuration == truthName);
     });
+    return cells;
+}
+
+std::vector<StabilityCell> StabilityRun::found() const {
+    std::vector<StabilityCell> cells;
+    for (const std::string& unit : inOrder_)
+        for (StabilityCell& cell : readFinding(units_->result(unit).value()).cells)
+            cells.push_back(std::move(cell));
+    return cells;
+}
+
+std::string StabilityRun::assembled() const {
+    std::vector<StabilityCell> cells = kept(), own = found();
+    cells.insert(cells.end(), own.begin(), own.end());
+    writeFile(csv_, stabilityCsv(testsOf(cells), cells));
+    writeStabilityPage(options_.folder);
+    return stabilityCsv(testsOf(own), own);
+}
+
+std::vector<StabilityCell> StabilityRun::run(const StabilityProgress& progress) {
+    doTasks(*units_, tasks_, progress);
+    std::vector<StabilityCell> cells = kept(), own = found();
+    cells.insert(cells.end(), own.begin(), own.end());
     return cells;
 }
 
@@ -160,42 +233,7 @@ std::vector<StabilityCell> keptCells(const StabilityOptions& options) {
 
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress) {
-    std::vector<TestedTechnique> tested; // all names are checked before the first is run
-    for (const std::string& configuration : options.configurations)
-        tested.emplace_back(configuration);
-    std::vector<std::unique_ptr<FailureTest>> tests;
-    const std::vector<const FailureTestRow*> rows = rowsOf(options.tests);
-    std::vector<StabilityCell> cells = keptCells(options);
-    writeFile(options.folder / "stability.json", options.about);
-    // The tests in motion take about as long as all others together.
-    const double still = options.motion ? (rows.empty() ? 0 : 0.5) : 1,
-                 steps = static_cast<double>(rows.size() * (tested.size() + 1)) / still;
-    double done = 0;
-    for (const FailureTestRow* row : rows) {
-        progress(done++ / steps, fmt::format("scene of {}", row->about.id));
-        tests.push_back(row->make(options.size));
-        cells.push_back(truthCell(*row, *tests.back(), options.folder));
-    }
-    for (const TestedTechnique& technique : tested) {
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            progress(done++ / steps,
-                     fmt::format("{}, {}", technique.configuration(), rows[i]->about.id));
-            for (StabilityCell& cell : cellsOf(*rows[i], *tests[i], technique, options.folder))
-                cells.push_back(std::move(cell));
-        }
-        if (!rows.empty())
-            writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
-    }
-    if (options.motion) {
-        const auto inMotion = cellsInMotion(
-            *options.motion, tested, options.folder, [&](double share, const std::string& note) {
-                progress(still + (1 - still) * share, "in motion: " + note);
-            });
-        cells.insert(cells.end(), inMotion.begin(), inMotion.end());
-        writeFile(options.folder / "stability.csv", stabilityCsv(testsOf(cells), cells));
-    }
-    writeStabilityPage(options.folder);
-    return cells;
+    return StabilityRun(options).run(progress);
 }
 
 void writeStabilityPage(const fs::path& folder) {

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "bench/motion/temporal.h"
 #include "bench/stability/cell.h"
+#include "bench/stability/motion.h"
 #include "protocols/reader/match.h"
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,14 +14,6 @@ namespace obscura {
 
 // `obscura-bench stability`: techniques through every failure test. The folder gets stability.csv
 // (csv.h), stability.json, pictures/TEST-CONFIGURATION.png and stability.html (page.h).
-
-// Camera paths through a scene, for steadiness from frame to frame.
-struct Motion {
-    Scene scene;
-    Camera start;
-    double radius = 0.5; // metres; of truth and techniques
-    TemporalEffort effort;
-};
 
 struct StabilityOptions {
     std::vector<std::string> configurations; // as bench/measure/tested_technique.h takes them
@@ -30,7 +23,7 @@ struct StabilityOptions {
     std::optional<Motion> motion = {};
     std::string about =
         "{}\n";        // stability.json: what else decides the numbers, such as the program
-    bool anew = false; // whatever the folder's CSV holds is measured again, or left out
+    bool anew = false; // whatever the folder's CSV holds is left out
 };
 
 // All tests of still pictures, in the order of the page's columns; those in motion
@@ -43,11 +36,12 @@ std::vector<std::string> screenTechniques();
 // The share done, 0 ... 1, and what is at hand.
 using StabilityProgress = std::function<void(double, const std::string&)>;
 
-// Runs the tests. What the folder's CSV holds of other tests and configurations stays, if it was
-// measured with the same `about`. If it was measured with another, that is an Error, unless `anew`
-// is set. The CSV is written again after each technique, so that finished ones are kept, and the
-// page at the end. A context must be current; an unknown test is an Error. Returns all that stands
-// in the CSV.
+// Runs the tests, with all other processes that do so in this folder (base/units.h); what was done
+// there with the same `about` and size is not done again while its pictures are there. CSV and page
+// are made at the end, by one of them, and are those of a process alone. What the folder's CSV
+// holds of other tests and configurations stays, if it was measured with the same `about`. If it
+// was measured with another, that is an Error, unless `anew` is set. A context must be current; an
+// unknown test is an Error. Returns all that stands in the CSV.
 std::vector<StabilityCell> runStability(const StabilityOptions& options,
                                         const StabilityProgress& progress);
 

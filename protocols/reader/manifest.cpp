@@ -419,10 +419,14 @@ std::vector<std::string> differences(const Recipe& recorded, const Recipe& now) 
 }
 
 Manifest readManifest(const std::filesystem::path& path) {
+    return parseManifest(readFile(path), path);
+}
+
+Manifest parseManifest(const std::string& text, const std::filesystem::path& path) {
     const std::string file = path.string();
     json value;
     try {
-        value = json::parse(readFile(path));
+        value = json::parse(text);
     } catch (const json::exception& error) {
         throw Error({file, 0, 0, {}}, fmt::format("expected JSON: {}", error.what()));
     }
@@ -457,7 +461,7 @@ Manifest readManifest(const std::filesystem::path& path) {
     return manifest;
 }
 
-void writeManifest(const std::filesystem::path& path, const Manifest& manifest) {
+std::string manifestText(const Manifest& manifest) {
     json conditions = json::array();
     for (const ConditionRecord& condition : manifest.conditions) {
         json images = json::object();
@@ -487,7 +491,11 @@ void writeManifest(const std::filesystem::path& path, const Manifest& manifest) 
         root["display"] = toJson(*manifest.display);
     if (manifest.timing)
         root["timing"] = toJson(*manifest.timing);
-    writeFile(path, root.dump(2) + "\n");
+    return root.dump(2) + "\n";
+}
+
+void writeManifest(const std::filesystem::path& path, const Manifest& manifest) {
+    writeFile(path, manifestText(manifest));
 }
 
 } // namespace obscura

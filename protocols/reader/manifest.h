@@ -126,6 +126,9 @@ std::vector<std::string> differences(const Recipe& recorded, const Recipe& now);
 // manifest.json of a stimulus folder. Reading checks every field and names the one that is amiss.
 // A file of an earlier version is read too; what it lacks is empty, and schemaVersion tells.
 Manifest readManifest(const std::filesystem::path& path);
+// The same of such a file's text; `path` is for errors, and its folder the manifest's.
+Manifest parseManifest(const std::string& text, const std::filesystem::path& path);
+std::string manifestText(const Manifest& manifest);
 void writeManifest(const std::filesystem::path& path, const Manifest& manifest);
 
 } // namespace obscura

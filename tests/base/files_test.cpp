@@ -129,7 +129,6 @@ TEST(Files, NobodyElseRemovesAnything) {
     const std::map<std::string, int> allowed{
         {"command.cpp", 1},  // the folder in which this run was writing an export
         {"files.cpp", 3},    // unfinished files of gone processes, and its own
-        {"generate.cpp", 1}, // the unfinished manifest that this run has written
         {"main.cpp", 1},     // the folder of obscura-validity's own process in memory
         {"report.cpp", 1},   // a choice that obscura-bench choose wrote
         {"tallying.cpp", 1}, // a simulated study's CSV in that folder

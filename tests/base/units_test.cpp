@@ -71,6 +71,42 @@ TEST(Units, EachIsGivenOnceAndItsResultStays) {
     EXPECT_TRUE(filesWith(root / "units", "claim").empty());
 }
 
+// Of what an earlier run made beside its results, here files, two are lost.
+TEST(Units, WhatNoLongerStandsIsDoneAgainOnce) {
+    const test::Folder root;
+    const auto file = [&](const std::string& name) { return root / (name + ".txt"); };
+    {
+        Units units(root.path(), "", planOf(4));
+        for (int i = 0; i < 3; ++i) {
+            const std::string name = *units.claimNext("");
+            writeFile(file(name), "made");
+            units.finish(name, "first");
+        }
+    }
+    fs::remove(file("unit 0"));
+    fs::remove(file("unit 2"));
+    const auto stands = [&](const std::string& name, const std::string& result) {
+        return result == "first" ? fs::exists(file(name)) : true;
+    };
+    Units one(root.path(), "", planOf(4), std::chrono::minutes(2), stands),
+        two(root.path(), "", planOf(4), std::chrono::minutes(2), stands);
+    EXPECT_EQ(one.state().done, 1U);
+    EXPECT_FALSE(one.isDone("unit 0"));
+    EXPECT_EQ(one.claimNext(""), "unit 0");
+    EXPECT_TRUE(one.finish("unit 0", "second")) << "in the place of the first result";
+    EXPECT_EQ(one.result("unit 0"), "second");
+    EXPECT_EQ(two.claimNext(""), "unit 2") << "unit 0 has been done again";
+    EXPECT_EQ(two.result("unit 0"), "second");
+    EXPECT_EQ(one.claimNext(""), "unit 3");
+    EXPECT_TRUE(one.finish("unit 3", "first"));
+    writeFile(file("unit 2"), "made");
+    EXPECT_TRUE(two.finish("unit 2", "second"));
+    EXPECT_FALSE(one.claimNext(""));
+    EXPECT_FALSE(two.claimNext(""));
+    EXPECT_EQ(one.costDone(), 4);
+    EXPECT_EQ(unitsState(root.path()).done, 4U);
+}
+
 TEST(Units, WorkersStayInTheirGroupAndBeginWhereFewestWork) {
     const test::Folder root;
     Units a(root.path(), "", planOf(6, 3)), b(root.path(), "", planOf(6, 3));

@@ -70,7 +70,8 @@ thanks = "t"
 std::map<std::string, std::string> contentsOf(const fs::path& folder) {
     std::map<std::string, std::string> result;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        result[entry.path().filename().string()] = sha256File(entry.path());
+        if (entry.is_regular_file()) // not the units
+            result[entry.path().filename().string()] = sha256File(entry.path());
     return result;
 }
 
@@ -107,6 +108,8 @@ class Generate : public testing::Test {
     std::vector<std::string> checked(const std::string& text) {
         return check(parseProtocol(text, "tiny.toml"), folders(), context_->driver(), quiet);
     }
+    // As if the folder were of a program that knew no units.
+    void forgetUnits() const { fs::remove_all(root_ / "out" / "units"); }
     // A floor before a wall in place of the triangle, so that rays meet something.
     void makeCorner() const {
         const std::vector<float> corner{-9, 0, 0, 9, 0, 0, 0, 0.6f, 0, -9, 0, 0, 0, 0, 9, 9, 0, 0};
@@ -140,7 +143,6 @@ TEST_F(Generate, WritesMatchedPairs) {
     EXPECT_EQ(manifest.conditions[1].image("a").meanOcclusion, 0);
     EXPECT_GT(manifest.conditions[0].image("a").meanOcclusion, 0.1); // Crytek on a plane
     EXPECT_TRUE(fs::exists(root_ / "out" / manifest.contactSheets.at(0).path));
-    EXPECT_FALSE(fs::exists(root_ / "out" / "unfinished-manifest.json"));
 }
 
 // But for how long techniques took.
@@ -235,6 +237,7 @@ TEST_F(Generate, MeasuresImagesThatAreKept) {
             image.milliseconds.reset();
         }
     writeManifest(root_ / "out" / "manifest.json", before);
+    forgetUnits();
     const GenerateResult again = run();
     EXPECT_EQ(again.kept, 4);
     EXPECT_EQ(again.manifest.conditions[0].image("b").quality,
@@ -339,12 +342,56 @@ TEST_F(Generate, AnInterruptedRunLeavesNothingHalfDone) {
     EXPECT_EQ(rest.rendered, 2);
 }
 
+// What is proved by no unit is proved by the manifest, and the other way round.
+TEST_F(Generate, TheManifestAloneOrTheUnitsAloneKeepImages) {
+    run();
+    const auto before = contentsOf(root_ / "out");
+    forgetUnits();
+    EXPECT_EQ(run().rendered, 0);
+    EXPECT_EQ(contentsOf(root_ / "out"), before);
+    fs::remove(root_ / "out" / "manifest.json");
+    EXPECT_EQ(run().rendered, 0);
+    EXPECT_EQ(contentsOf(root_ / "out"), before);
+}
+
+// The half that another worker finished is not done again, and a reference whose pictures have gone
+// is rendered again.
+TEST_F(Generate, GoesOnWithWhatOthersFinished) {
+    std::string text = tracedText();
+    text.replace(text.find("level = \"high\""), 14, "level = \"low\""); // one reference for both
+    const Announce interrupt = [](int done, int, const std::string&) {
+        if (done == 3)
+            throw std::runtime_error("power cut");
+    };
+    const GenerateResult whole = run(text, "whole");
+    EXPECT_THROW(run(text, "out", false, interrupt), std::runtime_error);
+    int pictures = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(root_ / "out" / "units"))
+        if (entry.path().extension() == ".png") {
+            writeFile(entry.path(), "not a picture");
+            ++pictures;
+        }
+    EXPECT_EQ(pictures, 2);
+    const GenerateResult rest = run(text);
+    EXPECT_EQ(rest.kept, 3);
+    EXPECT_EQ(rest.rendered, 2);
+    EXPECT_EQ(whole.warnings.size(), 3U);
+    EXPECT_THAT(rest.warnings, testing::ElementsAre(whole.warnings.back())); // of its own half
+    for (std::size_t i = 0; i < 2; ++i)
+        for (const ImageRecord& image : whole.manifest.conditions[i].images) {
+            const ImageRecord& other = rest.manifest.conditions[i].image(image.role);
+            EXPECT_EQ(other.image.sha256, image.image.sha256) << image.name;
+            EXPECT_EQ(other.quality, image.quality) << image.name;
+        }
+}
+
 TEST_F(Generate, APairThatIsNotMatchedIsRefused) {
     run();
     const fs::path path = root_ / "out" / "manifest.json";
     Manifest manifest = readManifest(path);
     manifest.conditions[0].image("a").inputsSha256 = std::string(64, '0');
     writeManifest(path, manifest);
+    forgetUnits();
     try {
         run();
         FAIL();
@@ -408,6 +455,7 @@ TEST_F(Generate, AManifestWithoutTheCodeProvesNothing) {
             pair[role]["recipe"].erase("codeSha256");
     }
     writeFile(path, json.dump());
+    forgetUnits();
     EXPECT_EQ(verified(), 4); // it can still be read and verified
     const GenerateResult again = run();
     EXPECT_EQ(again.rendered, 4);

@@ -27,7 +27,7 @@ class Validity : public testing::Test {
     Outcomes outcomesIn(std::string_view world, int threads = 2, int asked = studies) const {
         for (const World& one : worlds())
             if (one.name == world)
-                return outcomesOf(StudySimulator(one.protocol()), one, one.studies(asked), 1,
+                return outcomesOf(StudySimulator(one.protocol()), one, {0, one.studies(asked)}, 1,
                                   folder.string(), threads);
         return {};
     }
