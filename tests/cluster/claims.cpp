@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-// What sharing work costs on a disk: `claims FOLDER UNITS PROCESSES [GROUPS]` lets so many processes
-// share units that are no work at all, in a new folder, and prints how fast they were through.
-// docs/cluster.md has figures; run it on a cluster's own file system before trusting a thousand
-// workers to it.
+// What sharing work costs on a disk: `claims FOLDER UNITS PROCESSES [GROUPS]` lets so many
+// processes share units that are no work at all, in a new folder, and prints how fast they were
+// through. docs/cluster.md has figures; run it on a cluster's own file system before trusting a
+// thousand workers to it.
 
 namespace obscura {
 namespace {
