@@ -230,6 +230,7 @@ UnitsState unitsState(const fs::path& folder, Seconds lease) {
 struct Units::Implementation {
     fs::path folder; // "units" itself
     std::vector<WorkUnit> plan;
+    std::vector<std::string> names; // of the plan's files: a digest each, and listings are many
     Lease lease;
     Stands stands;
     mutable std::set<std::string> done;   // as far as known
@@ -359,6 +360,8 @@ Units::Units(fs::path folder, std::string about, std::vector<WorkUnit> plan, Lea
     : self_(std::make_unique<Implementation>()) {
     self_->folder = unitsFolder(folder);
     self_->plan = std::move(plan);
+    for (const WorkUnit& unit : self_->plan)
+        self_->names.push_back(fileNameOf(unit.name));
     self_->lease = lease;
     self_->stands = std::move(stands);
     self_->open(about);
@@ -385,10 +388,11 @@ Units::Implementation::openUnits(const std::string& group,
     std::vector<Open> open, claimed;
     std::map<std::string, std::size_t> workers; // by group
     const Listing listing = listingOf(folder);
-    for (const WorkUnit& unit : plan) {
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const WorkUnit& unit = plan[i];
         if ((among && !among(unit)) || done.contains(unit.name))
             continue;
-        const auto found = listing.find(fileNameOf(unit.name));
+        const auto found = listing.find(names[i]);
         const UnitFiles files = found == listing.end() ? UnitFiles{} : found->second;
         if (!files.done.empty() && !fallen.contains(unit.name)) {
             done.insert(unit.name);
