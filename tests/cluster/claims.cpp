@@ -18,15 +18,15 @@
 namespace obscura {
 namespace {
 
-std::vector<Unit> planOf(int units, int groups) {
-    std::vector<Unit> plan;
+std::vector<WorkUnit> planOf(int units, int groups) {
+    std::vector<WorkUnit> plan;
     for (int i = 0; i < units; ++i)
         plan.push_back({fmt::format("configuration {} in view {}", i / groups, i % groups),
                         fmt::format("view {}", i % groups)});
     return plan;
 }
 
-int work(const std::string& folder, const std::vector<Unit>& plan) {
+int work(const std::string& folder, const std::vector<WorkUnit>& plan) {
     Units units(folder, "claims", plan);
     int finished = 0;
     std::string group;
@@ -39,7 +39,7 @@ int work(const std::string& folder, const std::vector<Unit>& plan) {
 }
 
 void run(const std::string& folder, int units, int processes, int groups) {
-    const std::vector<Unit> plan = planOf(units, groups);
+    const std::vector<WorkUnit> plan = planOf(units, groups);
     const auto begin = std::chrono::steady_clock::now();
     std::vector<pid_t> children;
     for (int i = 0; i < processes; ++i) {
