@@ -76,14 +76,29 @@ std::optional<ProcessId> writerOf(std::string_view name) {
     return ProcessId::parse(name);
 }
 
+// Whether a link failed for `reason` because there is something: sshfs gives EPERM for that, and
+// NFS may remember for a while that there was nothing.
+bool isTaken(const fs::path& path, int reason) {
+    std::error_code ignored;
+    const bool taken = reason == EEXIST || fs::exists(fs::symlink_status(path, ignored));
+    errno = reason;
+    return taken;
+}
+
 // Gives what was written its name; false where `mayReplace` is not and something has that name.
 bool publish(const fs::path& unfinished, const fs::path& path, bool mayReplace) {
     flushToDisk(unfinished);
     // A hard link, unlike a rename, is never made over what is there.
-    const int failed = mayReplace ? ::rename(unfinished.c_str(), path.c_str())
-                                  : ::link(unfinished.c_str(), path.c_str());
-    if (failed && !mayReplace && errno == EEXIST)
-        return false;
+    bool failed = mayReplace ? ::rename(unfinished.c_str(), path.c_str()) != 0
+                             : ::link(unfinished.c_str(), path.c_str()) != 0;
+    if (failed && !mayReplace && isTaken(path, errno)) {
+        std::error_code ignored;
+        // Over a network the answer to a link can be lost: asked again, the name is taken, by us
+        // (open(2)).
+        failed = false;
+        if (!fs::equivalent(unfinished, path, ignored))
+            return false;
+    }
     if (failed)
         fail(path, mayReplace ? "cannot be replaced" : "cannot be created");
     flushToDisk(folderOf(path));

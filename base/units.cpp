@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/process.h"
+#include "base/random.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -28,6 +29,20 @@ using Seconds = std::chrono::duration<double>;
 constexpr auto pollEvery = std::chrono::milliseconds(500);
 
 fs::path unitsFolder(const fs::path& folder) { return folder / "units"; }
+
+// Waits after a listing that found nothing to do. Each of many waiting workers lists the folder the
+// more rarely the longer that takes: so no more than a fiftieth of them burden its server at a
+// time.
+void waitAfter(Seconds listing, Seconds lease, const std::function<void()>& waiting) {
+    const Seconds pause = std::min(50 * listing, lease);
+    Seconds waited{0};
+    do {
+        if (waiting)
+            waiting();
+        std::this_thread::sleep_for(pollEvery);
+        waited += pollEvery;
+    } while (waited < pause);
+}
 
 // What a person can read, and no other unit's.
 std::string fileNameOf(const std::string& unit) {
@@ -215,6 +230,7 @@ UnitsState unitsState(const fs::path& folder, Seconds lease) {
 struct Units::Implementation {
     fs::path folder; // "units" itself
     std::vector<WorkUnit> plan;
+    std::vector<std::string> names; // of the plan's files: a digest each, and listings are many
     Lease lease;
     Stands stands;
     mutable std::set<std::string> done;   // as far as known
@@ -223,7 +239,8 @@ struct Units::Implementation {
     std::mutex mutex;
     std::condition_variable_any changed;
     std::map<std::string, fs::path> held; // claims of this process, by unit
-    std::jthread heart;                   // last: it ends first
+    Random random{1, ProcessId::current().text()};
+    std::jthread heart; // last: it ends first
 
     fs::path doneFile(const std::string& name) const {
         return folder / (fileNameOf(name) + ".done");
@@ -314,7 +331,8 @@ void Units::Implementation::beat(const std::stop_token& stop) {
 // One of all that try wins.
 bool Units::Implementation::claim(const std::string& name, int number) {
     const fs::path path = folder / fmt::format("{}.claim-{}", fileNameOf(name), number);
-    if (!writeNewFile(path, fmt::format("{}\n{:.3f}\n", ProcessId::current().text(), now())))
+    if (fs::exists(path) || // the link would fail too, but after a file has been written
+        !writeNewFile(path, fmt::format("{}\n{:.3f}\n", ProcessId::current().text(), now())))
         return false;
     const std::scoped_lock lock(mutex);
     held[name] = path;
@@ -342,6 +360,8 @@ Units::Units(fs::path folder, std::string about, std::vector<WorkUnit> plan, Lea
     : self_(std::make_unique<Implementation>()) {
     self_->folder = unitsFolder(folder);
     self_->plan = std::move(plan);
+    for (const WorkUnit& unit : self_->plan)
+        self_->names.push_back(fileNameOf(unit.name));
     self_->lease = lease;
     self_->stands = std::move(stands);
     self_->open(about);
@@ -368,10 +388,11 @@ Units::Implementation::openUnits(const std::string& group,
     std::vector<Open> open, claimed;
     std::map<std::string, std::size_t> workers; // by group
     const Listing listing = listingOf(folder);
-    for (const WorkUnit& unit : plan) {
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const WorkUnit& unit = plan[i];
         if ((among && !among(unit)) || done.contains(unit.name))
             continue;
-        const auto found = listing.find(fileNameOf(unit.name));
+        const auto found = listing.find(names[i]);
         const UnitFiles files = found == listing.end() ? UnitFiles{} : found->second;
         if (!files.done.empty() && !fallen.contains(unit.name)) {
             done.insert(unit.name);
@@ -402,10 +423,16 @@ std::optional<std::string> Units::claimNext(const std::string& group,
                                             const std::function<void()>& waiting,
                                             const std::function<bool(const WorkUnit&)>& among) {
     for (bool others = true;;) {
+        const auto listed = std::chrono::steady_clock::now();
         const auto open = self_->openUnits(group, among, others);
-        for (const auto& candidate : open) {
-            const std::string& name = candidate.unit->name;
-            if (!self_->claim(name, candidate.last.number + 1))
+        const Seconds listing = std::chrono::steady_clock::now() - listed;
+        // All that begin at once see the same units open: who loses one to another tries the next
+        // ever farther on, or else a thousand would take half a million tries.
+        std::uint32_t stride = 1;
+        for (std::size_t at = 0; at < open.size(); at += 1 + self_->random.below(stride)) {
+            const std::string& name = open[at].unit->name;
+            stride = std::min<std::uint32_t>(2 * stride, 1u << 20);
+            if (!self_->claim(name, open[at].last.number + 1))
                 continue;
             if (!isDone(name))
                 return name;
@@ -413,10 +440,8 @@ std::optional<std::string> Units::claimNext(const std::string& group,
         }
         if (open.empty() && !others)
             return std::nullopt;
-        if (waiting)
-            waiting();
         if (open.empty())
-            std::this_thread::sleep_for(pollEvery);
+            waitAfter(listing, self_->lease, waiting);
     }
 }
 
@@ -425,9 +450,11 @@ std::string Units::require(const std::string& name, const Work& work,
     for (;;) {
         if (const auto known = result(name))
             return *known;
-        const Listing listing = listingOf(self_->folder);
-        const auto found = listing.find(fileNameOf(name));
-        const ClaimFile* last = found == listing.end() ? nullptr : found->second.last();
+        const auto begun = std::chrono::steady_clock::now();
+        const Listing files = listingOf(self_->folder);
+        const Seconds listing = std::chrono::steady_clock::now() - begun;
+        const auto found = files.find(fileNameOf(name));
+        const ClaimFile* last = found == files.end() ? nullptr : found->second.last();
         const bool isHeld = last && holderOf(last->path, self_->now(), self_->lease.count()).lives;
         if (!isHeld && self_->claim(name, last ? last->number + 1 : 1)) {
             try {
@@ -441,10 +468,8 @@ std::string Units::require(const std::string& name, const Work& work,
             }
             continue;
         }
-        if (waiting)
-            waiting();
         if (isHeld)
-            std::this_thread::sleep_for(pollEvery);
+            waitAfter(listing, self_->lease, waiting);
     }
 }
 

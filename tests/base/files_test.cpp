@@ -6,12 +6,30 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <map>
 #include <regex>
 #include <string>
 #include <vector>
+
+namespace {
+
+int linkAnswers = 0; // an errno that link() gives, whatever came of it
+
+} // namespace
+
+// In place of the C library's, to be a network's.
+extern "C" int link(const char* from, const char* to) noexcept {
+    const long failed = ::syscall(SYS_link, from, to);
+    if (linkAnswers == 0)
+        return static_cast<int>(failed);
+    errno = linkAnswers;
+    return -1;
+}
 
 namespace obscura {
 namespace {
@@ -40,6 +58,19 @@ TEST(Files, WriteLeavesNothingButTheFile) {
     EXPECT_EQ(readFile(path), "second");
     EXPECT_EQ(sha256File(path), sha256("second"));
     EXPECT_EQ(std::distance(fs::directory_iterator(path.parent_path()), {}), 1);
+}
+
+// NFS says EEXIST to who asks again because the first answer was lost, sshfs EPERM for EEXIST.
+TEST(Files, ANewFileIsOursOrTheirsWhateverANetworkAnswers) {
+    const test::Folder root;
+    linkAnswers = EEXIST;
+    EXPECT_TRUE(writeNewFile(root / "a", "ours"));
+    linkAnswers = EPERM;
+    EXPECT_FALSE(writeNewFile(root / "a", "theirs"));
+    linkAnswers = 0;
+    EXPECT_FALSE(writeNewFile(root / "a", "theirs"));
+    EXPECT_EQ(readFile(root / "a"), "ours");
+    EXPECT_EQ(std::distance(fs::directory_iterator(root.path()), {}), 1);
 }
 
 TEST(Files, AFailedWriteKeepsTheOldFile) {
