@@ -51,6 +51,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("bench/analysis", {"inference"});
     room("experiment", {"gl", "image", "inference", "protocols"});
     room("analysis", {"inference", "report", "protocols"});
+    room("archive", {"stimuli", "analysis"});
     room("validity", {"experiment", "analysis"});
     return table;
 }();
@@ -208,6 +209,7 @@ const std::map<std::string, Rooms> keepers = {
     {"meshoptimizer", {"renderer/scene"}},
     {"toml++/", {"protocols"}},
     {"embree", {"renderer/reference"}},
+    {"zip.h", {"archive"}},
 };
 
 TEST(IncludeRules, LibrariesStayWithTheirKeepers) {

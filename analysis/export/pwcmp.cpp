@@ -120,7 +120,7 @@ std::string readme(const StudyData& data, bool ties) {
 
 } // namespace
 
-ExportFiles pwcmpFiles(const StudyData& data, std::vector<std::string>& remarks) {
+NewFiles pwcmpFiles(const StudyData& data, std::vector<std::string>& remarks) {
     const Comparisons comparisons(data);
     if (comparisons.others() > 0)
         remarks.push_back(fmt::format("{} answer(s) are no choice between two techniques (ranks, "
@@ -146,7 +146,7 @@ ExportFiles pwcmpFiles(const StudyData& data, std::vector<std::string>& remarks)
     if (ties)
         remarks.push_back("some answers are \"not sure\": every answer has two lines, so that "
                           "these count as half a choice of either image (README.md)");
-    return {{"comparisons.csv", csvText(table)}, {"README.md", readme(data, ties)}};
+    return {{"comparisons.csv", {csvText(table)}}, {"README.md", {readme(data, ties)}}};
 }
 
 } // namespace obscura
