@@ -34,7 +34,7 @@ SimulatedRows simulatedOf(const std::string& word) {
 }
 
 // The flags among the rules, by their names in results.json.
-constexpr std::array<std::pair<const char*, bool AnswerRules::*>, 5> flags{
+constexpr std::array<std::pair<const char*, bool AnswerRules::*>, 5> ruleFlags{
     {{"mixedStudies", &AnswerRules::mixedStudies},
      {"mixedProtocols", &AnswerRules::mixedProtocols},
      {"duplicates", &AnswerRules::duplicates},
@@ -78,7 +78,7 @@ nlohmann::ordered_json toJson(const AnalysisRequest& request) {
         {"stimuli", !request.stimuli.empty()},
         {"protocol", !request.protocol.empty()},
         {"simulated", simulatedWords[static_cast<std::size_t>(rules.simulated)]}};
-    for (const auto& [name, flag] : flags)
+    for (const auto& [name, flag] : ruleFlags)
         json[name] = rules.*flag;
     json["excluded"] = rules.excluded.empty() ? "" : readFile(rules.excluded);
     return json;
@@ -107,7 +107,7 @@ AnalysisRequest requestOf(const nlohmann::json& made, const std::string& file, c
     if (request.rules.simulated > SimulatedRows::include)
         throw Error({file, 0, 0, "made.simulated"},
                     "expected refuse, exclude, only or include, found another word; analyse again");
-    for (const auto& [name, flag] : flags)
+    for (const auto& [name, flag] : ruleFlags)
         request.rules.*flag = get(name, false);
     for (const char* key : {"version", "commit"})
         get(key, std::string());

@@ -144,7 +144,8 @@ class Checking {
         Checked& checked = row("tables of BIDS, from the data");
         tried(checked, "sourcedata", [&] {
             const AnswerRules rules = resultsHere().request.rules;
-            const StudyData data = readStudy(study_->places.data, rules.simulated, rules.lenient);
+            const RecordedStudy data =
+                readStudy(study_->places.data, rules.simulated, rules.lenient);
             shownImages(data, study_->places.stimuli);
             for (const auto& [path, file] : bidsFiles(data, true)) {
                 if (path == "README.md" || path == "dataset_description.json")
@@ -165,7 +166,7 @@ class Checking {
         Checked& checked = row("results, value by value");
         tried(checked, resultsFolder, [&] {
             const Results here = resultsHere();
-            const Comparison comparison = comparisonOf(here, tablesOf(here));
+            const ResultsComparison comparison = comparisonOf(here, tablesOf(here));
             checked.same = comparison.same;
             checked.nearly = comparison.nearly;
             checked.differs = comparison.numbers;

@@ -81,10 +81,17 @@ class Packing {
 
     void addBids() {
         const AnswerRules& rules = results_.request.rules;
-        const StudyData data = readStudy(study_.places.data, rules.simulated, rules.lenient);
-        shownImages(data, study_.places.stimuli); // an Error where others were shown
+        const RecordedStudy data = readStudy(study_.places.data, rules.simulated, rules.lenient);
+        // An Error where others were shown than lie there.
+        const NewFiles shown = shownImages(data, study_.places.stimuli);
         files() = bidsFiles(data, true);
-        files()[".bidsignore"] = {fmt::format("{}\nLICENCES.md\n", sumsName)};
+        // What BIDS does not know, and images that nobody was shown, which it would ask about.
+        std::string ignored =
+            fmt::format("{}\nLICENCES.md\nstimuli/manifest.json\nstimuli/scenes/\n", sumsName);
+        for (const FileRecord& file : filesOf(study_.manifest))
+            if (!shown.contains("stimuli/" + file.path))
+                ignored += "stimuli/" + file.path + "\n";
+        files()[".bidsignore"] = {ignored};
         contents_.remarks = data.remarks;
     }
 
@@ -141,7 +148,7 @@ class Packing {
 
     void addResults() {
         const auto tables = tablesOf(results_);
-        const Comparison comparison = comparisonOf(results_, tables);
+        const ResultsComparison comparison = comparisonOf(results_, tables);
         if (!comparison.numbers.empty() || !comparison.others.empty())
             throw Error(
                 {results_.folder.string(), 0, 0, {}},

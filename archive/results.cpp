@@ -16,10 +16,10 @@ Results readResults(const StudyPlaces& places, const fs::path& excluded) {
     const fs::path file = places.results / "results.json";
     const auto json = nlohmann::json::parse(readFile(file), nullptr, false);
     if (!json.is_object() || !json.contains("made") || !json["made"].is_object())
-        throw Error(
-            {file.string(), 0, 0, "made"},
-            "expected results that say how they were made, as obscura-analysis writes them "
-            "now, found none; analyse again, or leave out --results and they are made anew");
+        throw Error({file.string(), 0, 0, "made"},
+                    "expected results that say how they were made, as obscura-analysis writes them "
+                    "now, found none; analyse again, or put them elsewhere: where there are none, "
+                    "they are made");
     const nlohmann::json& made = json["made"];
     Results results{
         places.results,
@@ -42,7 +42,8 @@ std::map<std::string, std::string> tablesOf(const Results& results) {
     return tablesOf(analysisOf(results.request), results.request);
 }
 
-Comparison comparisonOf(const Results& results, const std::map<std::string, std::string>& tables) {
+ResultsComparison comparisonOf(const Results& results,
+                               const std::map<std::string, std::string>& tables) {
     std::map<std::string, std::string> there;
     for (const auto& [name, table] : tables)
         if (fs::is_regular_file(results.folder / name))

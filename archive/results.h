@@ -31,7 +31,8 @@ Results makeResults(const StudyPlaces& places, const std::filesystem::path& fold
 std::map<std::string, std::string> tablesOf(const Results& results);
 
 // That, held against the files of the same names in the folder.
-Comparison comparisonOf(const Results& results, const std::map<std::string, std::string>& tables);
+ResultsComparison comparisonOf(const Results& results,
+                               const std::map<std::string, std::string>& tables);
 
 // This program, as results name it.
 std::string thisProgram();

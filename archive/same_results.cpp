@@ -84,7 +84,7 @@ class Comparing {
         result_.others.push_back(fmt::format("{}: {} {}", file, key, how));
     }
 
-    Comparison result() { return std::move(result_); }
+    ResultsComparison result() { return std::move(result_); }
 
   private:
     void compare(const std::string& file, const std::string& key, const std::string& before,
@@ -110,13 +110,13 @@ class Comparing {
             ++result_.same;
     }
 
-    Comparison result_;
+    ResultsComparison result_;
 };
 
 } // namespace
 
-Comparison comparisonOf(const std::map<std::string, std::string>& before,
-                        const std::map<std::string, std::string>& now) {
+ResultsComparison comparisonOf(const std::map<std::string, std::string>& before,
+                               const std::map<std::string, std::string>& now) {
     Comparing comparing;
     for (const auto& [file, text] : before)
         if (const auto found = now.find(file); found == now.end())

@@ -7,7 +7,7 @@
 namespace obscura {
 
 // Tables of an analysis held against those of another, value by value.
-struct Comparison {
+struct ResultsComparison {
     long same = 0;   // values
     long nearly = 0; // numbers that differ by less than 1e-9 of the larger, as sums may on another
                      // processor
@@ -20,7 +20,7 @@ struct Comparison {
 
 // `before` and `now`: texts by file name, CSV or JSON. A file that one of them lacks differs. Of
 // results.json the part `made` counts for nothing: it says by which version.
-Comparison comparisonOf(const std::map<std::string, std::string>& before,
-                        const std::map<std::string, std::string>& now);
+ResultsComparison comparisonOf(const std::map<std::string, std::string>& before,
+                               const std::map<std::string, std::string>& now);
 
 } // namespace obscura

@@ -170,7 +170,7 @@ void checkDesign(const WholeStudy& study) {
                                      fmt::join(found, "; ")));
         }
     }
-    const StudyData data = readStudy(study.places.data, SimulatedRows::include, true);
+    const RecordedStudy data = readStudy(study.places.data, SimulatedRows::include, true);
     if (data.study != study.protocol.name)
         refuseDesign({study.places.data.string(), 0, 0, "study_id"},
                      fmt::format("expected data of the study \"{}\", found \"{}\"",

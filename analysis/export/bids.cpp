@@ -205,7 +205,7 @@ ordered_json textsOf(const ordered_json& value) {
 }
 
 // Authors and licence are those that users have added to their study's description.
-ordered_json descriptionOf(const StudyData& data) {
+ordered_json descriptionOf(const RecordedStudy& data) {
     const ordered_json own =
         data.description.empty() ? ordered_json::object() : ordered_json::parse(data.description);
     const bool simulated = std::any_of(data.sessions.begin(), data.sessions.end(),
@@ -221,7 +221,7 @@ ordered_json descriptionOf(const StudyData& data) {
     return json;
 }
 
-std::string readme(const StudyData& data) {
+std::string readme(const RecordedStudy& data) {
     return fmt::format(
         "# {}\n\n"
         "Answers of participants who compared or judged images, exported by Obscura {}.\n"
@@ -234,7 +234,7 @@ std::string readme(const StudyData& data) {
 
 class Bids {
   public:
-    Bids(const StudyData& data, bool withStimuli)
+    Bids(const RecordedStudy& data, bool withStimuli)
         : data_(data), withStimuli_(withStimuli),
           hasPairs_(std::any_of(data.sessions.begin(), data.sessions.end(),
                                 [](const auto& s) { return !s.rows.empty(); })) {}
@@ -304,18 +304,18 @@ class Bids {
         files_["participants.json"] = {sidecar(people).dump(2) + "\n"};
     }
 
-    const StudyData& data_;
+    const RecordedStudy& data_;
     bool withStimuli_, hasPairs_;
     NewFiles files_;
 };
 
 } // namespace
 
-NewFiles bidsFiles(const StudyData& data, bool withStimuli) {
+NewFiles bidsFiles(const RecordedStudy& data, bool withStimuli) {
     return Bids(data, withStimuli).files();
 }
 
-NewFiles shownImages(const StudyData& data, const fs::path& stimuli) {
+NewFiles shownImages(const RecordedStudy& data, const fs::path& stimuli) {
     Images images(stimuli);
     for (const SessionData& session : data.sessions)
         images.add(session);

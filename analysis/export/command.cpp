@@ -62,7 +62,7 @@ void writeKey(const fs::path& path, const std::string& content) {
                     fmt::format("cannot be written: {}", std::strerror(reason)));
 }
 
-NewFiles filesOf(const ExportOptions& options, StudyData& data) {
+NewFiles filesOf(const ExportOptions& options, RecordedStudy& data) {
     if (options.format == "bids") {
         NewFiles files = bidsFiles(data, !options.stimuli.empty());
         if (!options.stimuli.empty())
@@ -119,7 +119,7 @@ void exportStudy(const ExportOptions& options) {
     if (!options.stimuli.empty() && options.format != "bids")
         throw Error("expected --stimuli with --format bids only, whose folder has a place for "
                     "images; leave it out");
-    StudyData data = readStudy(options.study, options.simulated, options.lenient);
+    RecordedStudy data = readStudy(options.study, options.simulated, options.lenient);
     const std::string key = options.key.empty() ? "" : renameParticipants(data);
     const NewFiles files = filesOf(options, data);
     makeNew(options.out, [&](const fs::path& folder) {

@@ -54,7 +54,7 @@ class Variables {
 };
 
 // What users have added to their study's description is theirs to keep.
-ordered_json descriptionOf(const StudyData& data) {
+ordered_json descriptionOf(const RecordedStudy& data) {
     ordered_json json = {
         {"@context", "https://schema.org/"},
         {"@type", "Dataset"},
@@ -68,7 +68,7 @@ ordered_json descriptionOf(const StudyData& data) {
 
 } // namespace
 
-NewFiles psychDsFiles(const StudyData& data) {
+NewFiles psychDsFiles(const RecordedStudy& data) {
     NewFiles files;
     Variables variables;
     for (const SessionData& session : data.sessions) {

@@ -105,7 +105,7 @@ class ExportTest : public testing::Test {
     std::string refusal() const {
         return errorOf([this] { exportStudy(options); });
     }
-    StudyData study() const { return readStudy(options.study, options.simulated, false); }
+    RecordedStudy study() const { return readStudy(options.study, options.simulated, false); }
     Table comparisons() const {
         std::vector<std::string> remarks;
         return tableOf(pwcmpFiles(study(), remarks).at("comparisons.csv").text);

@@ -24,7 +24,7 @@ Tables with(const std::string& file, const std::string& what, const std::string&
 }
 
 TEST(SameResults, AreCountedByValue) {
-    const Comparison same = comparisonOf(before, before);
+    const ResultsComparison same = comparisonOf(before, before);
     EXPECT_EQ(same.same, 4 + 1 + 6); // values, the header, cells
     EXPECT_EQ(same.nearly, 0);
     EXPECT_THAT(same.numbers, IsEmpty());
@@ -39,7 +39,8 @@ TEST(SameResults, NumbersThatDifferAreNamedWithHowFar) {
 }
 
 TEST(SameResults, RoundingIsNearlyTheSame) {
-    const Comparison rounded = comparisonOf(before, with("votes.csv", "0.25", "0.25000000001"));
+    const ResultsComparison rounded =
+        comparisonOf(before, with("votes.csv", "0.25", "0.25000000001"));
     EXPECT_EQ(rounded.nearly, 1);
     EXPECT_NEAR(rounded.most, 4e-11, 1e-12);
     EXPECT_THAT(rounded.numbers, IsEmpty());
@@ -55,7 +56,7 @@ TEST(SameResults, TextsAndWhatIsNewAreAMatterOfVersions) {
     EXPECT_THAT(
         comparisonOf(before, with("results.json", "\"version\":\"1\"", "\"version\":\"2\"")).others,
         IsEmpty());
-    const Comparison row = comparisonOf(before, with("votes.csv", "c2,21,0.25\n", ""));
+    const ResultsComparison row = comparisonOf(before, with("votes.csv", "c2,21,0.25\n", ""));
     EXPECT_THAT(row.numbers, IsEmpty());
     EXPECT_THAT(row.others, testing::SizeIs(3));
     EXPECT_THAT(row.others[0], HasSubstr("of row c2 was"));
