@@ -153,8 +153,8 @@ class Packing {
             throw Error(
                 {results_.folder.string(), 0, 0, {}},
                 fmt::format("expected what these data give, found {} other value(s), such as: {}; "
-                            "the results were made by {}, this is {}. Analyse again, or leave out "
-                            "--results and they are made anew",
+                            "the results were made by {}, this is {}. Analyse again, or put them "
+                            "elsewhere: where there are none, they are made",
                             comparison.numbers.size() + comparison.others.size(),
                             comparison.numbers.empty() ? comparison.others.front()
                                                        : comparison.numbers.front(),
