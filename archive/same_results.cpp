@@ -100,14 +100,15 @@ class Comparing {
         }
         constexpr double rounding = 1e-9;
         const double larger = std::max(std::abs(*was), std::abs(*is)), apart = *is - *was;
-        if (std::abs(apart) < rounding * larger) {
+        if (apart == 0) { // it is only spelt otherwise
+            ++result_.same;
+        } else if (std::abs(apart) < rounding * larger) {
             ++result_.nearly;
             result_.most = std::max(result_.most, std::abs(apart) / larger);
-        } else if (apart != 0) // else it is only spelt otherwise
+        } else {
             result_.numbers.push_back(
                 fmt::format("{}: {} was {}, is now {}: {:+.3g}", file, key, before, now, apart));
-        else
-            ++result_.same;
+        }
     }
 
     ResultsComparison result_;

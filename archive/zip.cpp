@@ -50,7 +50,9 @@ Zip openZip(const fs::path& path, int how) {
     int code = 0;
     Zip zip(zip_open(path.c_str(), how, &code));
     if (!zip)
-        fail(path, fmt::format("expected a zip file, whole and undamaged: {}", reasonOf(code)));
+        fail(path, fmt::format("expected a zip file, whole and undamaged: {}",
+                               code == ZIP_ER_EXISTS && (how & ZIP_RDONLY) ? "a name is there twice"
+                                                                           : reasonOf(code)));
     return zip;
 }
 

@@ -110,6 +110,7 @@ const RealStudy& realStudy() {
 
 StudyPlaces copied(const fs::path& to) {
     const fs::path& root = realStudy().root;
+    fs::create_directories(to);
     for (const char* part : {"p", "matched", "stimuli", "data", "results"})
         fs::copy(root / part, to / part, fs::copy_options::recursive);
     return {to / "p/tiny.toml", to / "stimuli", to / "data/tiny", to / "results"};
