@@ -1,6 +1,6 @@
 #pragma once
 
-#include "archive/check.h"
+#include "archive/checked.h"
 #include "archive/study.h"
 
 namespace obscura {
