@@ -20,7 +20,7 @@ namespace obscura {
 
 namespace {
 
-Spread spreadOf(const std::vector<Answer>& answers, double Vote::*field) {
+Percentiles spreadOf(const std::vector<Answer>& answers, double Vote::*field) {
     std::vector<double> values;
     values.reserve(answers.size());
     for (const Answer& answer : answers)
@@ -140,7 +140,7 @@ std::string utcOf(std::int64_t seconds) {
 
 } // namespace
 
-Spread spread(const std::vector<double>& values) {
+Percentiles spread(const std::vector<double>& values) {
     assert(!values.empty());
     const std::vector<double> found = percentiles(values, std::array{0.05, 0.5, 0.95});
     return {found[0], found[1], found[2]};
@@ -159,7 +159,7 @@ Conduct conductOf(const Answers& answers) {
     conduct.flow = flowOf(answers, conduct.participants, conduct.sessions);
     countTrials(counted, conduct);
     noteProvenance(counted, conduct);
-    const std::pair<Spread*, double Vote::*> spreads[] = {
+    const std::pair<Percentiles*, double Vote::*> spreads[] = {
         {&conduct.maskMs, &Vote::maskMs},
         {&conduct.view1Ms, &Vote::view1Ms},
         {&conduct.view2Ms, &Vote::view2Ms},
@@ -260,7 +260,7 @@ std::string positionBias(const Conduct& c) {
                        100 * high);
 }
 
-std::string seconds(const Spread& ms) {
+std::string seconds(const Percentiles& ms) {
     return fmt::format("{:.2f} s ({:.2f}–{:.2f})", ms.median / 1000, ms.low / 1000, ms.high / 1000);
 }
 

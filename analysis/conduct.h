@@ -13,12 +13,12 @@ namespace obscura {
 // How a study was run, as far as its rows show: who took part, whether the orders were balanced,
 // what the display did, how long people looked. All counts are of counted trials, unless said.
 
-struct Spread {
+struct Percentiles {
     double low = 0, median = 0, high = 0; // 5th, 50th and 95th percentile
 };
 
 // `values` is not empty.
-Spread spread(const std::vector<double>& values);
+Percentiles spread(const std::vector<double>& values);
 
 struct Conduct {
     struct Sessions {
@@ -47,7 +47,7 @@ struct Conduct {
     int wrongMasks = 0;   // trials whose mask lasted other than the planned number of refreshes
     int missedFrames = 0; // trials with a missed frame
     int earlyPresses = 0; // trials with a key press during the mask
-    Spread maskMs, view1Ms, view2Ms, decisionMs;
+    Percentiles maskMs, view1Ms, view2Ms, decisionMs;
     std::map<int, int> maskTimes;  // trials by duration of the mask, whole milliseconds
     std::map<int, int> maskFrames; // trials by refreshes of the mask beyond those planned
     std::map<int, int> missed;     // trials by missed frames

@@ -40,7 +40,7 @@ std::string conditions(const Findings& findings) {
                        counted(levels.size(), "level"), fmt::join(levels, ", "));
 }
 
-std::string seconds(const Spread& ms) {
+std::string seconds(const Percentiles& ms) {
     return fmt::format("{:.2f} s (median; 5th to 95th percentile {:.2f} to {:.2f} s)",
                        ms.median / 1000, ms.low / 1000, ms.high / 1000);
 }

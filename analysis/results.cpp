@@ -131,8 +131,9 @@ std::string resultsCsv(const Findings& findings) {
     return csv;
 }
 
-std::string resultsJson(const Findings& findings) {
-    Json json = {{"format_version", 1},
+std::string resultsJson(const Findings& findings, const Json& made) {
+    Json json = {{"format_version", 2}, // 1 did not say how it was made
+                 {"made", made},
                  {"source", sourceOf(findings)},
                  {"title", findings.title},
                  {"cautions", cautionsOf(findings)},

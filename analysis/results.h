@@ -3,6 +3,8 @@
 #include "analysis/findings.h"
 #include "analysis/table.h"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <string>
 
 namespace obscura {
@@ -14,9 +16,9 @@ namespace obscura {
 // scale. What does not exist has no line.
 std::string resultsCsv(const Findings& findings);
 
-// The same with all texts, as one object: source, title, cautions, summary, claims, conditions,
-// tests, scales, exclusions.
-std::string resultsJson(const Findings& findings);
+// The same with all texts, as one object: made, source, title, cautions, summary, claims,
+// conditions, tests, scales, exclusions. `made` says how it was asked for (whole_analysis.h).
+std::string resultsJson(const Findings& findings, const nlohmann::ordered_json& made);
 
 // A line for each reason and person: participant_id,session_id,reason,trials.
 std::string exclusionsCsv(const Findings& findings);

@@ -2,11 +2,9 @@
 
 #include "base/error.h"
 #include "base/files.h"
-#include "protocols/reader/design.h"
 #include "protocols/reader/stimuli.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <span>
 #include <utility>
@@ -42,13 +40,7 @@ const Texts& Study::texts() const {
     return protocol.texts;
 }
 
-std::string Study::design() const {
-    nlohmann::json design = nlohmann::json::parse(designOf(protocol));
-    for (const ConditionRecord& condition : manifest.conditions)
-        for (const ImageRecord& image : condition.images)
-            design["images"][condition.condition][image.role] = image.image.sha256;
-    return design.dump();
-}
+std::string Study::design() const { return designOf(protocol, manifest); }
 
 Study openStudy(const fs::path& protocol, const fs::path& stimuli) {
     Protocol read = readProtocol(protocol);

@@ -18,9 +18,7 @@ struct Study {
     const Texts& texts() const;
     const ConditionRecord& condition(int index) const; // as the protocol counts them, from 0
 
-    // All that must be the same for every participant: the protocol's design
-    // (protocols/reader/design.h) and the hashes of the images.
-    std::string design() const;
+    std::string design() const; // designOf() both
 };
 
 Study openStudy(const std::filesystem::path& protocol, const std::filesystem::path& stimuli);

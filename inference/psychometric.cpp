@@ -106,7 +106,7 @@ std::optional<double> profileEnd(const PsychometricLikelihood& likelihood, const
     return (inside + outside) / 2;
 }
 
-Bounds percentiles(const std::vector<double>& values, double confidence) {
+OpenInterval percentiles(const std::vector<double>& values, double confidence) {
     if (values.empty())
         return {};
     return {percentile(values, (1 - confidence) / 2), percentile(values, (1 + confidence) / 2)};
@@ -140,9 +140,9 @@ PsychometricFit fitPsychometric(const PsychometricData& data, const Psychometric
     return fit;
 }
 
-Bounds profileInterval(const PsychometricData& data, const PsychometricModel& model,
-                       const PsychometricFit& fit, PsychometricParameter parameter,
-                       double confidence) {
+OpenInterval profileInterval(const PsychometricData& data, const PsychometricModel& model,
+                             const PsychometricFit& fit, PsychometricParameter parameter,
+                             double confidence) {
     check(data, model);
     const PsychometricData levels = merged(data);
     const PsychometricLikelihood likelihood(levels, model);
@@ -151,8 +151,8 @@ Bounds profileInterval(const PsychometricData& data, const PsychometricModel& mo
     const bool slope = parameter == PsychometricParameter::slope;
     const double step = slope ? 0.25 : likelihood.spread() / 20;
     const Index coordinate = slope ? 1 : 0;
-    Bounds ends{profileEnd(likelihood, top, coordinate, fall, -step),
-                profileEnd(likelihood, top, coordinate, fall, step)};
+    OpenInterval ends{profileEnd(likelihood, top, coordinate, fall, -step),
+                      profileEnd(likelihood, top, coordinate, fall, step)};
     if (slope || model.curve == Sigmoid::weibull)
         for (auto* end : {&ends.low, &ends.high})
             if (*end)

@@ -31,7 +31,7 @@ std::optional<double> levelOf(const PsychometricModel& model, const Psychometric
 PsychometricFit fitPsychometric(const PsychometricData& data, const PsychometricModel& model);
 
 // Ends of an interval; an end that the data do not bound is absent.
-struct Bounds {
+struct OpenInterval {
     std::optional<double> low, high;
 };
 
@@ -39,12 +39,12 @@ enum class PsychometricParameter { threshold, slope };
 
 // The values of one parameter that a likelihood-ratio test at 1 - confidence does not reject, the
 // others refitted at each (Venables and Ripley, MASS 7.2).
-Bounds profileInterval(const PsychometricData& data, const PsychometricModel& model,
-                       const PsychometricFit& fit, PsychometricParameter parameter,
-                       double confidence = 0.95);
+OpenInterval profileInterval(const PsychometricData& data, const PsychometricModel& model,
+                             const PsychometricFit& fit, PsychometricParameter parameter,
+                             double confidence = 0.95);
 
 struct PsychometricBootstrap {
-    Bounds threshold, slope, lapse; // percentile intervals
+    OpenInterval threshold, slope, lapse; // percentile intervals
     // Share of simulated deviances at least as large as the one seen, (1 + count) / (1 + usable):
     // goodness of fit that does not rely on large numbers.
     double devianceP = 1;

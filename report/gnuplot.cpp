@@ -100,7 +100,17 @@ std::string gnuplotSvg(const std::string& script, const std::string& title) {
     return svg;
 }
 
-std::string gnuplotPdf(const std::string& script) { return printed(script, "%PDF"); }
+// Without the time of day, which cairo writes: equal figures are equal files. A PDF has a table of
+// places in it, so that the text must keep its length.
+std::string gnuplotPdf(const std::string& script) {
+    constexpr std::string_view key = "/CreationDate (D:", date = "19800101000000";
+    std::string pdf = printed(script, "%PDF");
+    if (const std::size_t at = pdf.find(key); at != pdf.npos)
+        for (std::size_t i = at + key.size(), n = 0; i < pdf.size() && pdf[i] != ')'; ++i, ++n)
+            if (pdf[i] >= '0' && pdf[i] <= '9')
+                pdf[i] = n < date.size() ? date[n] : '0';
+    return pdf;
+}
 
 std::string gnuplotText(const std::string& text) { return fmt::format("'{}'", literal(text)); }
 

@@ -12,7 +12,7 @@ packages=(
     libglfw3-dev libglm-dev libopenimageio-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
     libepoxy-dev libegl-dev libgl-dev
     libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libboost-dev libeigen3-dev libssl-dev
-    libpango1.0-dev libcairo2-dev libgtest-dev libgmock-dev libxtst-dev libxrandr-dev libx11-dev libembree-dev libnlopt-cxx-dev libimgui-dev libfreetype-dev
+    libpango1.0-dev libcairo2-dev libgtest-dev libgmock-dev libxtst-dev libxrandr-dev libx11-dev libembree-dev libnlopt-cxx-dev libimgui-dev libfreetype-dev libzip-dev
     libgl1-mesa-dri libegl1 libgl1 fonts-dejavu-core fonts-wqy-microhei gnuplot-nox xvfb xauth
     man-db zsh
 )

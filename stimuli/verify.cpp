@@ -1,5 +1,5 @@
 #include "base/files.h"
-#include "image/canvas.h"
+#include "stimuli/again.h"
 #include "stimuli/boost.h"
 #include "stimuli/generate.h"
 #include "stimuli/image_files.h"
@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstring>
 
 namespace obscura {
 
@@ -17,12 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view makeAnew = "make the stimuli anew: obscura-stimuli without --verify";
-
-// Compares bits, so that a NaN equals itself.
-bool sameBits(const Image& a, const Image& b) {
-    return a.pixels.size() == b.pixels.size() &&
-           std::memcmp(a.pixels.data(), b.pixels.data(), a.pixels.size() * sizeof(float)) == 0;
-}
 
 // Each image of a manifest in turn, with its condition.
 template <typename Visit>
@@ -34,13 +27,6 @@ void eachImage(const Manifest& manifest, Visit visit) {
 
 std::string nameOf(const ConditionRecord& condition, const ImageRecord& image) {
     return fmt::format("condition \"{}\", image {}", condition.condition, image.role);
-}
-
-// Whether the difference between two recipes may leave the image as it is. If so, the pixels
-// decide.
-bool decidedByPixels(const std::string& difference) {
-    return difference.starts_with("codeSha256: ") || difference.starts_with("shaderSha256: ") ||
-           difference.starts_with("programVersion: ");
 }
 
 class Verification {
@@ -148,31 +134,16 @@ void Verification::recipe(const ConditionRecord& pair, const ImageRecord& record
 void Verification::rendering(const ConditionRecord& pair, const ImageRecord& record) {
     const bool exrs = record.layers.contains("linear");
     const Rendering now = renderer_.render(record.recipe, exrs);
-    const auto mustBe = [&](const FileRecord& file, bool same) {
-        if (!same)
-            throw Error(placeOf(file),
-                        fmt::format("{}: its recipe now gives other pixels, so what renders has "
-                                    "changed; {}",
-                                    nameOf(pair, record), makeAnew));
+    const auto refuse = [&](const FileRecord& file) {
+        throw Error(placeOf(file),
+                    fmt::format("{}: its recipe now gives other pixels, so what renders has "
+                                "changed; {}",
+                                nameOf(pair, record), makeAnew));
     };
-    const auto png = [&](const FileRecord& file, const Image8& image) {
-        mustBe(file,
-               readImage8(manifest_.folder / file.path, image.channels).pixels == image.pixels);
-    };
-    png(renderedOf(record), now.image);
-    const auto images = exrsOf(now);
-    for (const auto& [kind, file] : record.layers)
-        if (kind == "ao")
-            png(file, quantised(now.visibility));
-        else if (record.derived && &file == &renderedOf(record))
-            continue;
-        else if (const auto image = images.find(kind); image == images.end())
-            mustBe(file, false);
-        else
-            mustBe(file, sameBits(readExr(manifest_.folder / file.path,
-                                          channelNames(image->second->channels)),
-                                  *image->second));
-    mustBe(record.image, now.inputsSha256 == record.inputsSha256);
+    for (const OtherPixels& other : otherPixels(manifest_, record, now))
+        refuse(other.file);
+    if (now.inputsSha256 != record.inputsSha256)
+        refuse(record.image);
     if (const std::string fault = faultOfBoost(protocol_, manifest_, pair, record); !fault.empty())
         throw Error(placeOf(record.image), fmt::format("{}; {}", fault, makeAnew));
     checkMatched(pair, condition(pair).place);

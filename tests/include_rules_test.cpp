@@ -52,6 +52,7 @@ const std::map<std::string, Rooms> allowed = [] {
     room("bench/analysis", {"inference"});
     room("experiment", {"gl", "image", "inference", "protocols"});
     room("analysis", {"inference", "report", "protocols"});
+    room("archive", {"stimuli", "analysis"});
     room("validity", {"experiment", "analysis"});
     return table;
 }();
@@ -209,6 +210,7 @@ const std::map<std::string, Rooms> keepers = {
     {"meshoptimizer", {"renderer/scene"}},
     {"toml++/", {"protocols"}},
     {"embree", {"renderer/reference"}},
+    {"zip.h", {"archive"}},
 };
 
 TEST(IncludeRules, LibrariesStayWithTheirKeepers) {

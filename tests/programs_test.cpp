@@ -48,8 +48,8 @@ const std::string small = tiny + " --out @/o.png";
 TEST(Programs, ExplainThemselves) {
     for (const char* program :
          {"obscura-render", "obscura-render compare", "obscura-stimuli", "obscura-stimuli match",
-          "obscura-experiment", "obscura-experiment ledger", "obscura-analysis", "obscura-bench",
-          "obscura-bench rays", "obscura-bench normals", "obscura-bench passes",
+          "obscura-experiment", "obscura-experiment ledger", "obscura-analysis", "obscura-archive",
+          "obscura-bench", "obscura-bench rays", "obscura-bench normals", "obscura-bench passes",
           "obscura-bench sweep", "obscura-bench merge", "obscura-bench page",
           "obscura-bench ablation", "obscura-bench status", "obscura-bench choose",
           "obscura-bench stability", "obscura-view"}) {

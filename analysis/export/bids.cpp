@@ -154,10 +154,10 @@ class Events {
     std::vector<std::pair<double, std::vector<std::string>>> order_;
 };
 
-// Images by path, with their hash and where a row names them.
-class Stimuli {
+// The images that a session's rows name, by path, with their hash.
+class Images {
   public:
-    explicit Stimuli(fs::path folder) : folder_(std::move(folder)) {}
+    explicit Images(fs::path folder) : folder_(std::move(folder)) {}
 
     void add(const SessionData& session) {
         for (const auto& [row, place] : session.phases) {
@@ -172,7 +172,7 @@ class Stimuli {
         }
     }
 
-    const std::map<std::string, std::string>& content() const { return content_; }
+    const std::map<std::string, std::string>& hashes() const { return hashes_; }
 
   private:
     void add(const std::string& file, const std::string& hash, Place place) {
@@ -181,9 +181,9 @@ class Stimuli {
         if (path.is_absolute() || path != file || *path.begin() == "..")
             throw Error(place,
                         fmt::format("expected a file of the stimuli's folder, found \"{}\"", file));
-        if (const auto [known, isNew] = content_.try_emplace(file); isNew)
-            known->second = readFile(folder_ / path);
-        if (sha256(content_.at(file)) != hash)
+        if (const auto [known, isNew] = hashes_.try_emplace(file); isNew)
+            known->second = sha256File(folder_ / path);
+        if (hashes_.at(file) != hash)
             throw Error(place, fmt::format("expected in {} the image that was shown, of SHA-256 "
                                            "{:.12}..., found another; take the folder from which "
                                            "the study was run",
@@ -191,7 +191,7 @@ class Stimuli {
     }
 
     fs::path folder_;
-    std::map<std::string, std::string> content_;
+    std::map<std::string, std::string> hashes_;
 };
 
 ordered_json textsOf(const ordered_json& value) {
@@ -205,7 +205,7 @@ ordered_json textsOf(const ordered_json& value) {
 }
 
 // Authors and licence are those that users have added to their study's description.
-ordered_json descriptionOf(const StudyData& data) {
+ordered_json descriptionOf(const RecordedStudy& data) {
     const ordered_json own =
         data.description.empty() ? ordered_json::object() : ordered_json::parse(data.description);
     const bool simulated = std::any_of(data.sessions.begin(), data.sessions.end(),
@@ -221,7 +221,7 @@ ordered_json descriptionOf(const StudyData& data) {
     return json;
 }
 
-std::string readme(const StudyData& data) {
+std::string readme(const RecordedStudy& data) {
     return fmt::format(
         "# {}\n\n"
         "Answers of participants who compared or judged images, exported by Obscura {}.\n"
@@ -234,22 +234,17 @@ std::string readme(const StudyData& data) {
 
 class Bids {
   public:
-    Bids(const StudyData& data, const std::optional<fs::path>& stimuli)
-        : data_(data), hasPairs_(std::any_of(data.sessions.begin(), data.sessions.end(),
-                                             [](const auto& s) { return !s.rows.empty(); })) {
-        if (stimuli)
-            stimuli_.emplace(*stimuli);
-    }
+    Bids(const RecordedStudy& data, bool withStimuli)
+        : data_(data), withStimuli_(withStimuli),
+          hasPairs_(std::any_of(data.sessions.begin(), data.sessions.end(),
+                                [](const auto& s) { return !s.rows.empty(); })) {}
 
-    ExportFiles files() {
-        files_["dataset_description.json"] = descriptionOf(data_).dump(2) + "\n";
-        files_["README.md"] = readme(data_);
+    NewFiles files() {
+        files_["dataset_description.json"] = {descriptionOf(data_).dump(2) + "\n"};
+        files_["README.md"] = {readme(data_)};
         for (const SessionData& session : data_.sessions)
             add(session);
         addPeople();
-        if (stimuli_)
-            for (const auto& [path, content] : stimuli_->content())
-                files_["stimuli/" + path] = content;
         return std::move(files_);
     }
 
@@ -261,19 +256,17 @@ class Bids {
             addTable(session, "beh", table);
         if (session.phases.empty())
             return;
-        if (stimuli_)
-            stimuli_->add(session);
-        addTable(session, "events", Events(session, stimuli_.has_value()).table());
+        addTable(session, "events", Events(session, withStimuli_).table());
     }
 
     void addTable(const SessionData& session, const std::string& suffix, const ExportTable& table) {
         files_[fmt::format("sub-{0}/ses-{1}/beh/sub-{0}_ses-{1}_task-{2}_{3}.tsv",
-                           session.participant, session.session, data_.label, suffix)] =
-            tsvText(table);
+                           session.participant, session.session, data_.label, suffix)] = {
+            tsvText(table)};
         ordered_json json = sidecar(table);
         if (suffix == "beh") // of events it would be a column's description
             json["TaskName"] = data_.study;
-        files_[fmt::format("task-{}_{}.json", data_.label, suffix)] = json.dump(2) + "\n";
+        files_[fmt::format("task-{}_{}.json", data_.label, suffix)] = {json.dump(2) + "\n"};
     }
 
     void addPeople() {
@@ -301,25 +294,35 @@ class Bids {
                                          fmt::format("{}", session->trials()), session->endReason});
             }
             const std::string path = fmt::format("sub-{0}/sub-{0}_sessions", participant);
-            files_[path + ".tsv"] = tsvText(sessions);
-            files_[path + ".json"] = sidecar(sessions).dump(2) + "\n"; // BIDS has none at the root
+            files_[path + ".tsv"] = {tsvText(sessions)};
+            // BIDS has none at the root.
+            files_[path + ".json"] = {sidecar(sessions).dump(2) + "\n"};
             people.rows.push_back({"sub-" + participant, fmt::format("{}", list.size()),
                                    fmt::format("{}", trials), list.front()->simulated ? "1" : "0"});
         }
-        files_["participants.tsv"] = tsvText(people);
-        files_["participants.json"] = sidecar(people).dump(2) + "\n";
+        files_["participants.tsv"] = {tsvText(people)};
+        files_["participants.json"] = {sidecar(people).dump(2) + "\n"};
     }
 
-    const StudyData& data_;
-    bool hasPairs_;
-    std::optional<Stimuli> stimuli_;
-    ExportFiles files_;
+    const RecordedStudy& data_;
+    bool withStimuli_, hasPairs_;
+    NewFiles files_;
 };
 
 } // namespace
 
-ExportFiles bidsFiles(const StudyData& data, const std::optional<fs::path>& stimuli) {
-    return Bids(data, stimuli).files();
+NewFiles bidsFiles(const RecordedStudy& data, bool withStimuli) {
+    return Bids(data, withStimuli).files();
+}
+
+NewFiles shownImages(const RecordedStudy& data, const fs::path& stimuli) {
+    Images images(stimuli);
+    for (const SessionData& session : data.sessions)
+        images.add(session);
+    NewFiles files;
+    for (const auto& [path, hash] : images.hashes())
+        files["stimuli/" + path] = {{}, stimuli / path};
+    return files;
 }
 
 } // namespace obscura

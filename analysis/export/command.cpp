@@ -2,8 +2,6 @@
 
 #include "analysis/export/formats.h"
 #include "analysis/export/pseudonyms.h"
-#include "base/files.h"
-#include "base/process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -31,12 +29,7 @@ bool isWithin(const fs::path& path, const fs::path& folder) {
 }
 
 void checkOut(const fs::path& out, const fs::path& study) {
-    const bool isFree = !fs::exists(fs::symlink_status(out)) ||
-                        (fs::is_directory(fs::symlink_status(out)) && fs::is_empty(out));
-    if (!isFree)
-        throw Error({out.string(), 0, 0, {}},
-                    "expected --out to be a new or empty folder, found something there, which an "
-                    "export does not replace; give another");
+    checkIsFree(out);
     if (isWithin(out, study))
         throw Error({out.string(), 0, 0, {}},
                     "expected --out to be outside the study's folder, whose data must stay as they "
@@ -69,32 +62,13 @@ void writeKey(const fs::path& path, const std::string& content) {
                     fmt::format("cannot be written: {}", std::strerror(reason)));
 }
 
-// Beside the target, renamed when all is there; without a trailing slash, which has no name.
-void writeFolder(fs::path out, const ExportFiles& files, const fs::path& key,
-                 const std::string& keyContent) {
-    out = fs::weakly_canonical(out);
-    makeFolders(out.parent_path());
-    const fs::path unfinished = out.parent_path() / fmt::format(".obscura-unfinished-export.{}",
-                                                                ProcessId::current().text());
-    if (!fs::create_directory(unfinished))
-        throw Error({unfinished.string(), 0, 0, {}}, "expected nothing of this name; remove it");
-    try {
-        for (const auto& [path, content] : files)
-            writeFile(unfinished / path, content);
-        if (!key.empty())
-            writeKey(key, keyContent);
-        fs::rename(unfinished, out);
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove_all(unfinished, ignored);
-        throw;
+NewFiles filesOf(const ExportOptions& options, RecordedStudy& data) {
+    if (options.format == "bids") {
+        NewFiles files = bidsFiles(data, !options.stimuli.empty());
+        if (!options.stimuli.empty())
+            files.merge(shownImages(data, options.stimuli));
+        return files;
     }
-}
-
-ExportFiles filesOf(const ExportOptions& options, StudyData& data) {
-    if (options.format == "bids")
-        return bidsFiles(data,
-                         options.stimuli.empty() ? std::nullopt : std::optional(options.stimuli));
     if (options.format == "psych-ds")
         return psychDsFiles(data);
     return pwcmpFiles(data, data.remarks);
@@ -145,10 +119,14 @@ void exportStudy(const ExportOptions& options) {
     if (!options.stimuli.empty() && options.format != "bids")
         throw Error("expected --stimuli with --format bids only, whose folder has a place for "
                     "images; leave it out");
-    StudyData data = readStudy(options.study, options.simulated, options.lenient);
+    RecordedStudy data = readStudy(options.study, options.simulated, options.lenient);
     const std::string key = options.key.empty() ? "" : renameParticipants(data);
-    const ExportFiles files = filesOf(options, data);
-    writeFolder(options.out, files, options.key, key);
+    const NewFiles files = filesOf(options, data);
+    makeNew(options.out, [&](const fs::path& folder) {
+        writeFiles(folder, files);
+        if (!options.key.empty())
+            writeKey(options.key, key);
+    });
     for (const std::string& remark : data.remarks)
         fmt::print(stderr, "{}\n", remark);
     fmt::print("{} session(s) of {}, {} files: {}\n", data.sessions.size(), data.study,

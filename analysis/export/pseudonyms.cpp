@@ -34,7 +34,7 @@ void rename(Key& key, const std::string& name, const Place& place) {
 
 } // namespace
 
-std::string renameParticipants(StudyData& data) {
+std::string renameParticipants(RecordedStudy& data) {
     std::random_device device;
     std::map<std::string, std::string> names;
     std::set<std::string> taken;

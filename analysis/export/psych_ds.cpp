@@ -54,7 +54,7 @@ class Variables {
 };
 
 // What users have added to their study's description is theirs to keep.
-ordered_json descriptionOf(const StudyData& data) {
+ordered_json descriptionOf(const RecordedStudy& data) {
     ordered_json json = {
         {"@context", "https://schema.org/"},
         {"@type", "Dataset"},
@@ -68,15 +68,15 @@ ordered_json descriptionOf(const StudyData& data) {
 
 } // namespace
 
-ExportFiles psychDsFiles(const StudyData& data) {
-    ExportFiles files;
+NewFiles psychDsFiles(const RecordedStudy& data) {
+    NewFiles files;
     Variables variables;
     for (const SessionData& session : data.sessions) {
         const auto add = [&](const std::string& kind, const ExportTable& table) {
             if (table.rows.empty())
                 return;
             files[fmt::format("data/study-{}_subject-{}_session-{}{}_data.csv", data.label,
-                              session.participant, session.session, kind)] = csvText(table);
+                              session.participant, session.session, kind)] = {csvText(table)};
             variables.add(table);
         };
         add("", tableOf(session.rows, data.version));
@@ -85,8 +85,8 @@ ExportFiles psychDsFiles(const StudyData& data) {
     }
     ordered_json description = descriptionOf(data);
     description["variableMeasured"] = variables.json();
-    files["dataset_description.json"] = description.dump(2) + "\n";
-    files["README.md"] = readme(data.study);
+    files["dataset_description.json"] = {description.dump(2) + "\n"};
+    files["README.md"] = {readme(data.study)};
     return files;
 }
 

@@ -17,7 +17,7 @@ struct Comparison {
 };
 
 // Questions that are answered with an image; others have options of their own.
-std::set<std::string> questionsOfImages(const StudyData& data) {
+std::set<std::string> questionsOfImages(const RecordedStudy& data) {
     std::set<std::string> names;
     for (const SessionData& session : data.sessions)
         for (const auto& [row, place] : session.answers)
@@ -28,7 +28,7 @@ std::set<std::string> questionsOfImages(const StudyData& data) {
 
 class Comparisons {
   public:
-    explicit Comparisons(const StudyData& data) : questions_(questionsOfImages(data)) {
+    explicit Comparisons(const RecordedStudy& data) : questions_(questionsOfImages(data)) {
         for (const SessionData& session : data.sessions) {
             for (const auto& [row, place] : session.answers)
                 add(row, place);
@@ -99,7 +99,7 @@ class Comparisons {
     int others_ = 0, missing_ = 0;
 };
 
-std::string readme(const StudyData& data, bool ties) {
+std::string readme(const RecordedStudy& data, bool ties) {
     return fmt::format(
         "# {}: comparisons for pwcmp\n\n"
         "comparisons.csv has a line for each choice between two images: condition_A was the first\n"
@@ -120,7 +120,7 @@ std::string readme(const StudyData& data, bool ties) {
 
 } // namespace
 
-ExportFiles pwcmpFiles(const StudyData& data, std::vector<std::string>& remarks) {
+NewFiles pwcmpFiles(const RecordedStudy& data, std::vector<std::string>& remarks) {
     const Comparisons comparisons(data);
     if (comparisons.others() > 0)
         remarks.push_back(fmt::format("{} answer(s) are no choice between two techniques (ranks, "
@@ -146,7 +146,7 @@ ExportFiles pwcmpFiles(const StudyData& data, std::vector<std::string>& remarks)
     if (ties)
         remarks.push_back("some answers are \"not sure\": every answer has two lines, so that "
                           "these count as half a choice of either image (README.md)");
-    return {{"comparisons.csv", csvText(table)}, {"README.md", readme(data, ties)}};
+    return {{"comparisons.csv", {csvText(table)}}, {"README.md", {readme(data, ties)}}};
 }
 
 } // namespace obscura

@@ -42,7 +42,7 @@ class Reader {
   public:
     Reader(const fs::path& folder, bool lenient) : folder_(folder), lenient_(lenient) {}
 
-    StudyData read(SimulatedRows simulated) {
+    RecordedStudy read(SimulatedRows simulated) {
         for (const fs::path& file : files("data", ".csv"))
             add(file, readResponses(file, lenient_), &SessionData::rows);
         for (const fs::path& file : files("sessions", "_phases.csv"))
@@ -222,7 +222,7 @@ class Reader {
 
     fs::path folder_;
     bool lenient_;
-    StudyData data_;
+    RecordedStudy data_;
     std::map<std::pair<std::string, std::string>, SessionData> sessions_;
     std::map<std::string, std::map<std::string, Place>> rowIds_; // of each kind of table
     std::size_t rehearsed_ = 0, empty_ = 0;
@@ -240,11 +240,11 @@ std::size_t SessionData::trials() const {
     return indices.size();
 }
 
-StudyData readStudy(const fs::path& folder, SimulatedRows simulated, bool lenient) {
+RecordedStudy readStudy(const fs::path& folder, SimulatedRows simulated, bool lenient) {
     if (!fs::is_directory(folder))
         throw Error({folder.string(), 0, 0, {}},
                     "expected a study's folder (participant_data/<study>), found none");
-    StudyData data = Reader(folder, lenient).read(simulated);
+    RecordedStudy data = Reader(folder, lenient).read(simulated);
     std::copy_if(data.study.begin(), data.study.end(), std::back_inserter(data.label),
                  isAlphanumeric);
     if (data.label.empty())

@@ -29,7 +29,7 @@ struct SessionData {
 
 // A study's folder (experiment/data_folder.h), read whole and checked, so that any export of it can
 // be made without further complaint.
-struct StudyData {
+struct RecordedStudy {
     std::string study;                 // its name, as the rows have it
     std::string label;                 // of that, the letters and digits; never empty
     std::string description;           // dataset_description.json, an object; "" for none
@@ -44,6 +44,6 @@ struct StudyData {
 // says what to do. Everything that a file name or a join needs is checked: ids are of letters and
 // digits, one study, every row_id unique, no two ids that differ in capitals only, an answer's
 // phase is there. Errors name file, line and column; `lenient` skips lines that cannot be read.
-StudyData readStudy(const std::filesystem::path& folder, SimulatedRows simulated, bool lenient);
+RecordedStudy readStudy(const std::filesystem::path& folder, SimulatedRows simulated, bool lenient);
 
 } // namespace obscura

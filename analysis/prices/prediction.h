@@ -15,7 +15,7 @@ struct PredictedPoint {
     std::string place; // "atrium, sky"
     std::string name;
     double predicted = 0, people = 0; // JOD less those of the reference
-    Bounds interval;                  // of people's, 95 %
+    OpenInterval interval;            // of people's, 95 %
 };
 struct Prediction {
     std::vector<PredictedPoint> points;

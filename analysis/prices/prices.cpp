@@ -133,7 +133,7 @@ PricedScale pricedScale(const ScaleKind& kind, const ScaleResult& result, const 
         if (const auto found = told.find(item.name); found != told.end()) {
             const Told& one = found->second;
             scale.techniques.push_back({item.name, one.technique, one.milliseconds(), item.value,
-                                        std::nullopt, Bounds{}, one.mean(one.jod),
+                                        std::nullopt, OpenInterval{}, one.mean(one.jod),
                                         one.mean(one.rmse)});
         }
     if (scale.techniques.empty())

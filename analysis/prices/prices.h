@@ -19,7 +19,7 @@ struct Priced {
     std::optional<double> milliseconds; // 0 for "none"; over several scenes their geometric mean
     double people = 0;
     std::optional<double> standardError;
-    Bounds interval;                 // 95 %; of the reference 0 to 0
+    OpenInterval interval;           // 95 %; of the reference 0 to 0
     std::optional<double> predicted; // over several scenes the mean, and so is `rmse`
     std::optional<double> rmse;      // of visibility against the ray-traced one, 0 to 1
 };
@@ -30,8 +30,8 @@ struct Plateau {
     std::size_t technique = 0;
     // By how much the dearer ones may be better: the greatest upper end of the 95 % intervals.
     double most = 0;
-    std::string seen; // a dearer technique whose interval lies wholly above 0; "" for none
-    Bounds seenBy;    // its interval
+    std::string seen;    // a dearer technique whose interval lies wholly above 0; "" for none
+    OpenInterval seenBy; // its interval
 };
 
 struct PricedScale {

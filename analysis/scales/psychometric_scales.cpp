@@ -14,10 +14,10 @@ constexpr int resamples = 400;
 // In the axis' own direction again.
 double seen(const Ladder& ladder, double level) { return ladder.isFalling ? -level : level; }
 
-Bounds seen(const Ladder& ladder, const Bounds& bounds) {
+OpenInterval seen(const Ladder& ladder, const OpenInterval& bounds) {
     if (!ladder.isFalling)
         return bounds;
-    Bounds turned;
+    OpenInterval turned;
     if (bounds.high)
         turned.low = -*bounds.high;
     if (bounds.low)
@@ -72,9 +72,10 @@ ScaleResult functionOf(const Ladder& ladder) {
     }
     const PsychometricBootstrap bootstrap =
         bootstrapPsychometric(ladder.data, model, fit, resamples, 1);
-    const Bounds threshold =
-                     profileInterval(ladder.data, model, fit, PsychometricParameter::threshold),
-                 slope = profileInterval(ladder.data, model, fit, PsychometricParameter::slope);
+    const OpenInterval threshold = profileInterval(ladder.data, model, fit,
+                                                   PsychometricParameter::threshold),
+                       slope =
+                           profileInterval(ladder.data, model, fit, PsychometricParameter::slope);
     result.items = {{"threshold", seen(ladder, fit.parameters.threshold), fit.thresholdError,
                      seen(ladder, threshold)},
                     {"slope", fit.parameters.slope, fit.slopeError, slope}};

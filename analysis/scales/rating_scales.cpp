@@ -61,7 +61,7 @@ Mean meanOf(const std::vector<double>& values) {
 }
 
 // The interval, within the scale's range where that is known.
-Bounds intervalOf(const Mean& mean, const std::optional<std::pair<int, int>>& range) {
+OpenInterval intervalOf(const Mean& mean, const std::optional<std::pair<int, int>>& range) {
     if (!mean.error)
         return {};
     double low = mean.value - mean.quantile * *mean.error,

@@ -23,7 +23,7 @@ struct ScaleItem {
     std::optional<double> standardError{};
     // 95 %; an end that the data do not bound is absent. None at all: not known, or the item is the
     // origin, which has no error of its own.
-    Bounds interval{};
+    OpenInterval interval{};
     std::vector<std::pair<double, int>> counts{}; // of ratings: how often each value was given
 };
 
@@ -32,7 +32,7 @@ struct ScaleStep {
     std::size_t from = 0, to = 0; // items
     double difference = 0;        // >= 0 unless items have an order of their own
     std::optional<double> standardError{};
-    Bounds interval{};
+    OpenInterval interval{};
     std::optional<double> p{}, holm{}; // of the same scale's steps
 };
 

@@ -78,7 +78,7 @@ int decimalsOf(const ScaleResult& result) {
     return largest > 0 && largest < 0.5 ? 3 : 2;
 }
 
-std::string spelt(const Bounds& bounds, int decimals) {
+std::string spelt(const OpenInterval& bounds, int decimals) {
     if (!bounds.low && !bounds.high)
         return "–";
     return fmt::format("{} to {}", bounds.low ? spelt(*bounds.low, decimals) : "−∞",

@@ -21,7 +21,7 @@ std::vector<std::string> scaleSentences(const ScaleFindings& scales);
 // Numbers with a real minus sign; an interval as "0.10 to 0.52", with so many decimals as the
 // scale's values ask for.
 std::string spelt(double value, int decimals);
-std::string spelt(const Bounds& bounds, int decimals);
+std::string spelt(const OpenInterval& bounds, int decimals);
 int decimalsOf(const ScaleResult& result);
 
 // The step that begins at an item; null at the last.

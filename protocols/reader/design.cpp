@@ -290,8 +290,8 @@ struct Parts {
 
 Parts split(const Protocol& protocol) {
     const auto& [name, title, seed, width, height, antialiasing, normals, views, levels, techniques,
-                 conditions, boost, trial, before, after, keys, screen, display, ordering, claims,
-                 exclusions, words, translations, simulation, path, sha256] = protocol;
+                 includes, conditions, boost, trial, before, after, keys, screen, display, ordering,
+                 claims, exclusions, words, translations, simulation, path, sha256] = protocol;
     const auto& [positionBias, lapse, viewTime, decision] = simulation;
     const SplitConditions parts = split(conditions);
 

@@ -337,6 +337,7 @@ Protocol parseRoot(TomlTable root, std::string& includedSha256) {
         protocol.levels.push_back(parseLevel(name, std::move(table)));
     Techniques techniques = parseTechniques(root);
     protocol.techniques = std::move(techniques.techniques);
+    protocol.includes = std::move(techniques.includes);
     includedSha256 = techniques.includedSha256;
     if (auto trial = root.table("trial"))
         protocol.trial = parseTrial(std::move(*trial));

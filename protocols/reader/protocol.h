@@ -71,6 +71,8 @@ struct Protocol {
     std::vector<View> views;
     std::vector<Level> levels;
     std::vector<TechniqueSetting> techniques;
+    std::vector<std::string>
+        includes; // files with some of these, relative to the protocol's folder
     std::vector<Condition> conditions;
     std::optional<Boost> boost; // nothing: images are shown as they were rendered
     Trial trial;

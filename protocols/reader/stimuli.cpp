@@ -5,6 +5,7 @@
 #include "protocols/reader/design.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <utility>
@@ -56,6 +57,14 @@ Manifest readStimuli(const Protocol& protocol, const fs::path& folder) {
     manifest.conditions = std::move(ordered);
     checkBelongTogether(protocol, manifest);
     return manifest;
+}
+
+std::string designOf(const Protocol& protocol, const Manifest& manifest) {
+    nlohmann::json design = nlohmann::json::parse(designOf(protocol));
+    for (const ConditionRecord& condition : manifest.conditions)
+        for (const ImageRecord& image : condition.images)
+            design["images"][condition.condition][image.role] = image.image.sha256;
+    return design.dump();
 }
 
 double predictedJod(const Manifest& manifest, std::string_view condition, std::string_view role) {

@@ -13,6 +13,10 @@ namespace obscura {
 // made from another one.
 Manifest readStimuli(const Protocol& protocol, const std::filesystem::path& folder);
 
+// All that must be the same for every participant: the protocol's design (design.h) and the hashes
+// of the images. The SHA-256 of this text is in every row.
+std::string designOf(const Protocol& protocol, const Manifest& manifest);
+
 // Predicted JOD of an image against the reference of its view, at most 10. An Error where the
 // manifest does not have it.
 double predictedJod(const Manifest& manifest, std::string_view condition, std::string_view role);

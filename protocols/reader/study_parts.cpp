@@ -72,6 +72,8 @@ void addTechniques(TomlTable& root, std::vector<TechniqueSetting>& techniques, L
 std::string includeFile(const PlacedText& included, const std::filesystem::path& folder,
                         std::vector<TechniqueSetting>& techniques, Lists lists) {
     const std::string file = (folder / included.text).string();
+    if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))
+        throw Error(included.place, fmt::format("expected a file, found something else: {}", file));
     std::string text;
     try {
         text = readFile(file);
@@ -195,8 +197,10 @@ std::vector<TechniqueSetting> parseVariants(const std::string& name, TomlTable t
 Techniques parseTechniques(TomlTable& root, Lists lists) {
     Techniques result;
     const auto folder = std::filesystem::path(root.place().file).parent_path();
-    for (const PlacedText& included : root.texts("include", "names of files with techniques"))
+    for (const PlacedText& included : root.texts("include", "names of files with techniques")) {
         result.includedSha256 += includeFile(included, folder, result.techniques, lists);
+        result.includes.push_back(included.text);
+    }
     if (root.has("techniques") || result.techniques.empty())
         addTechniques(root, result.techniques, lists);
     return result;

@@ -26,7 +26,8 @@ std::vector<TechniqueSetting> parseVariants(const std::string& name, TomlTable t
 // folder), then its own. No two may have the same name.
 struct Techniques {
     std::vector<TechniqueSetting> techniques;
-    std::string includedSha256; // of each included file, one after the other
+    std::vector<std::string> includes; // those files, as the study names them
+    std::string includedSha256;        // of each included file, one after the other
 };
 enum class Lists { refused, varied };
 Techniques parseTechniques(TomlTable& root, Lists lists = Lists::refused);

@@ -134,6 +134,13 @@ GltfFile::GltfFile(const fs::path& path) : path_(path) {
     sha256_ = hash.hex();
 }
 
+std::vector<fs::path> GltfFile::named() const {
+    std::vector<fs::path> files;
+    for (const auto& [file, bytes] : known_)
+        files.push_back(file);
+    return files;
+}
+
 std::string GltfFile::imageName(std::size_t index) const {
     const json& image = json_.at("images")[index];
     const std::string uri = image.value("uri", "");

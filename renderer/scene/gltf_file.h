@@ -30,6 +30,9 @@ class GltfFile {
     std::span<const std::byte> image(std::size_t index) const;
     std::string imageName(std::size_t index) const;
 
+    // All files that it names besides itself, canonical paths.
+    std::vector<std::filesystem::path> named() const;
+
   private:
     using Bytes = std::span<const std::byte>;
 

@@ -30,7 +30,7 @@ std::string fact(const Conduct& conduct, const std::string& name) {
 
 TEST(Spread, IsRsTypeSevenPercentiles) {
     // quantile(c(3, 1, 4, 1, 5), c(.05, .5, .95)) in R 4.2.2: 1.0 3.0 4.8
-    const Spread spread = obscura::spread({3, 1, 4, 1, 5});
+    const Percentiles spread = obscura::spread({3, 1, 4, 1, 5});
     EXPECT_DOUBLE_EQ(spread.low, 1);
     EXPECT_DOUBLE_EQ(spread.median, 3);
     EXPECT_DOUBLE_EQ(spread.high, 4.8);

@@ -105,10 +105,10 @@ class ExportTest : public testing::Test {
     std::string refusal() const {
         return errorOf([this] { exportStudy(options); });
     }
-    StudyData study() const { return readStudy(options.study, options.simulated, false); }
+    RecordedStudy study() const { return readStudy(options.study, options.simulated, false); }
     Table comparisons() const {
         std::vector<std::string> remarks;
-        return tableOf(pwcmpFiles(study(), remarks).at("comparisons.csv"));
+        return tableOf(pwcmpFiles(study(), remarks).at("comparisons.csv").text);
     }
 
     test::Folder folder_;
@@ -176,7 +176,7 @@ TEST_F(ExportTest, TellsSimulatedFromPeopleAndLeavesRehearsalsOut) {
     options.simulated = SimulatedRows::exclude;
     EXPECT_EQ(study().sessions.size(), 3u);
     options.simulated = SimulatedRows::include;
-    EXPECT_THAT(bidsFiles(study(), std::nullopt).at("participants.tsv"),
+    EXPECT_THAT(bidsFiles(study(), false).at("participants.tsv").text,
                 HasSubstr("sub-P03\t1\t2\t0\nsub-S01\t1\t1\t1\n"));
     row.trial.rehearsal = true;
     writeFile(file("S01", "phases"), phaseHeader() + phaseLine(row));
@@ -199,12 +199,14 @@ TEST_F(ExportTest, ReadsWhatSpreadsheetsAndPeopleWrite) {
     writeFile(file("P01", "phases"), crlf);
     writeFile(options.study / "data" / "notes.txt", "not ours");
     EXPECT_EQ(psychDsFiles(study()), before);
-    EXPECT_EQ(tableOf(before.at("data/study-sample_subject-P01_session-1_description-answers_data."
-                                "csv"))[0]["value"],
+    EXPECT_EQ(tableOf(before
+                          .at("data/study-sample_subject-P01_session-1_description-answers_data."
+                              "csv")
+                          .text)[0]["value"],
               row.value);
-    EXPECT_THAT(bidsFiles(study(), std::nullopt)
-                    .at("sub-P01/ses-1/beh/sub-P01_ses-1_task-sample_events.tsv"),
-                HasSubstr("\ta \"quoted\", text of lines \t"));
+    EXPECT_THAT(
+        bidsFiles(study(), false).at("sub-P01/ses-1/beh/sub-P01_ses-1_task-sample_events.tsv").text,
+        HasSubstr("\ta \"quoted\", text of lines \t"));
 }
 
 TEST_F(ExportTest, IsWholeOrNotAtAll) {
@@ -222,7 +224,7 @@ TEST_F(ExportTest, IsWholeOrNotAtAll) {
     exportStudy(options);
     EXPECT_EQ(readFile(options.out / "stimuli" / "b.png"), "picture b");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 3);
-    EXPECT_THAT(refusal(), HasSubstr("expected --out to be a new or empty folder"));
+    EXPECT_THAT(refusal(), HasSubstr("expected the name of something new, or an empty folder"));
     options.out = options.study / "data" / "x";
     EXPECT_THAT(refusal(), HasSubstr("outside the study's folder"));
     options.out = folder_ / "empty";
@@ -264,7 +266,7 @@ TEST_F(ExportTest, ComparisonsAreThoseOfPwcmp) {
     practice.trial.trialKind = "practice";
     writeAnswers("P03", {practice});
     std::vector<std::string> remarks;
-    const std::string text = pwcmpFiles(study(), remarks).at("comparisons.csv");
+    const std::string text = pwcmpFiles(study(), remarks).at("comparisons.csv").text;
     // The columns of pwcmp's example data, video tone mapping, but for its last.
     EXPECT_THAT(text, testing::StartsWith(
                           "observer,session_id,scene,condition_A,condition_B,is_A_selected,"));

@@ -256,7 +256,7 @@ TEST(Prices, StandInTheResultsOfPrograms) {
                 HasSubstr("scale,\"thurstone: atrium, sky: Blizzard24\",jod_people,-0.2127149"));
     EXPECT_THAT(csv, HasSubstr("scale,\"thurstone: atrium, sky: Blizzard24\",milliseconds,2\n"));
     EXPECT_THAT(csv, HasSubstr("scale,\"bradley-terry: atrium, sky: Blizzard24\",value,0.99361"));
-    const auto json = nlohmann::json::parse(resultsJson(findings));
+    const auto json = nlohmann::json::parse(resultsJson(findings, nlohmann::ordered_json()));
     const auto& scale = json["scales"][0];
     EXPECT_EQ(scale["unit"], "JOD");
     EXPECT_EQ(scale["reference"], "RayMarching30");

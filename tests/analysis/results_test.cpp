@@ -39,7 +39,7 @@ std::map<std::string, double> tidy(const Findings& findings) {
 TEST(Results, AreTheSameInBothFiles) {
     const Findings findings = thesis();
     const auto values = tidy(findings);
-    const auto json = nlohmann::json::parse(resultsJson(findings));
+    const auto json = nlohmann::json::parse(resultsJson(findings, nlohmann::ordered_json()));
     std::size_t numbers = 0;
     const auto compare = [&](const std::string& of, const std::string& subject,
                              const nlohmann::json& statistics) {

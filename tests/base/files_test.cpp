@@ -158,11 +158,12 @@ TEST(Files, TheLongestNameCanBeWritten) {
 // Removing is the business of few: every place in the sources is listed here, with what it removes.
 TEST(Files, NobodyElseRemovesAnything) {
     const std::map<std::string, int> allowed{
-        {"command.cpp", 1},  // the folder in which this run was writing an export
-        {"files.cpp", 3},    // unfinished files of gone processes, and its own
-        {"main.cpp", 1},     // the folder of obscura-validity's own process in memory
-        {"report.cpp", 1},   // a choice that obscura-bench choose wrote
-        {"tallying.cpp", 1}, // a simulated study's CSV in that folder
+        {"files.cpp", 3},            // unfinished files of gone processes, and its own
+        {"main.cpp", 1},             // the folder of obscura-validity's own process in memory
+        {"new_files.cpp", 1},        // the folder in which this run was making an export or archive
+        {"report.cpp", 1},           // a choice that obscura-bench choose wrote
+        {"tallying.cpp", 1},         // a simulated study's CSV in that folder
+        {"temporary_folder.cpp", 1}, // one in /tmp that obscura-archive has made for itself
         {"units.cpp",
          2} // claims of its own, of processes that were given up before it, and that are gone
     };

@@ -64,16 +64,21 @@ class Checker {
 
     void checkNames() {
         const std::regex known(
-            "README\\.md|dataset_description\\.json|participants\\.(tsv|json)|stimuli/.+|"
+            "README\\.md|dataset_description\\.json|participants\\.(tsv|json)|"
+            "(stimuli|code|sourcedata|derivatives)/.+|\\.bidsignore|"
             "task-[a-zA-Z0-9]+_(beh|events)\\.json|"
-            "(sub-[a-zA-Z0-9]+)/\\3_sessions\\.(tsv|json)|"
-            "(sub-[a-zA-Z0-9]+)/(ses-[a-zA-Z0-9]+)/beh/\\5_\\6_task-[a-zA-Z0-9]+_(beh|events)"
+            "(sub-[a-zA-Z0-9]+)/\\4_sessions\\.(tsv|json)|"
+            "(sub-[a-zA-Z0-9]+)/(ses-[a-zA-Z0-9]+)/beh/\\6_\\7_task-[a-zA-Z0-9]+_(beh|events)"
             "\\.tsv");
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(root_))
             if (!entry.is_directory())
                 names_.insert(fs::relative(entry.path(), root_).generic_string());
+        std::set<std::string> ignored; // as the dataset asks, a name a line
+        std::ifstream list(root_ / ".bidsignore");
+        for (std::string line; std::getline(list, line);)
+            ignored.insert(line);
         for (const std::string& name : names_)
-            if (!std::regex_match(name, known))
+            if (!std::regex_match(name, known) && !ignored.contains(name))
                 fault(name, "not a name of BIDS");
     }
 

@@ -89,7 +89,7 @@ TEST(Psychometric, ProfileIntervalsEqualR) {
     const auto expect = [](const PsychometricData& data, const PsychometricModel& model,
                            const std::vector<double>& threshold, const std::vector<double>& slope) {
         const PsychometricFit fit = fitPsychometric(data, model);
-        Bounds bounds = profileInterval(data, model, fit, PsychometricParameter::threshold);
+        OpenInterval bounds = profileInterval(data, model, fit, PsychometricParameter::threshold);
         EXPECT_NEAR(bounds.low.value_or(0), threshold[0], 2e-6);
         EXPECT_NEAR(bounds.high.value_or(0), threshold[1], 2e-6);
         bounds = profileInterval(data, model, fit, PsychometricParameter::slope);
@@ -159,7 +159,8 @@ TEST(Psychometric, BootstrapAgreesWithProfile) {
     const PsychometricData data = answers(0);
     const PsychometricModel model{.curve = Sigmoid::weibull};
     const PsychometricFit fit = fitPsychometric(data, model);
-    const Bounds profile = profileInterval(data, model, fit, PsychometricParameter::threshold);
+    const OpenInterval profile =
+        profileInterval(data, model, fit, PsychometricParameter::threshold);
     const PsychometricBootstrap boot = bootstrapPsychometric(data, model, fit, 400, 7);
     EXPECT_EQ(boot.usable, 400);
     EXPECT_NEAR(boot.threshold.low.value_or(0), profile.low.value_or(9), 0.1);

@@ -28,7 +28,8 @@ TEST(Gnuplot, ReportsAFaultInItsScript) {
 
 TEST(Gnuplot, DrawsPdf) {
     EXPECT_THAT(gnuplotPdf("set terminal pdfcairo\nplot sin(x)\n"),
-                AllOf(StartsWith("%PDF-"), HasSubstr("%%EOF")));
+                AllOf(StartsWith("%PDF-"), HasSubstr("%%EOF"),
+                      HasSubstr("CreationDate (D:19800101000000")));
 }
 
 TEST(Number, HasSignificantDigitsAndNoExponent) {
