@@ -1,6 +1,7 @@
 #include "bench/stability/page.h"
 
 #include "base/files.h"
+#include "bench/kept_pictures.h"
 #include "bench/stability/csv.h"
 #include "report/html.h"
 
@@ -147,6 +148,14 @@ std::string figureId(const StabilityTest& test, const std::string& configuration
     return escaped(id);
 }
 
+std::vector<std::string> picturesOf(const std::vector<StabilityCell>& cells) {
+    std::vector<std::string> names;
+    for (const StabilityCell& cell : cells)
+        if (!cell.picture.empty())
+            names.push_back(cell.picture);
+    return names;
+}
+
 // In the order of the file.
 std::vector<std::string> configurationsOf(const std::vector<StabilityCell>& cells) {
     std::vector<std::string> names;
@@ -161,7 +170,10 @@ class PageWriter {
   public:
     PageWriter(std::span<const StabilityTest> tests, const std::vector<StabilityCell>& cells,
                const fs::path& folder)
-        : tests_(tests), cells_(cells), folder_(folder), names_(configurationsOf(cells)) {}
+        : tests_(tests), cells_(cells), folder_(folder), names_(configurationsOf(cells)),
+          pictured_(keepsPictures(folder, picturesOf(cells))) {}
+
+    bool isPictured() const { return pictured_; }
 
     std::string heatMap() const {
         std::string html = "<div class=\"wide\"><table class=\"map\">\n<thead><tr><th></th>";
@@ -179,7 +191,7 @@ class PageWriter {
         for (const StabilityCell& cell : cells_)
             if (moves(cell) && (!worst || cell.value > worst->value))
                 worst = &cell;
-        if (!worst)
+        if (!worst || !pictured_)
             return {};
         return fmt::format("<h2>The worst flicker</h2>\n<p class=\"aside\">From left to "
                            "right: visibility, the truth, unreal change.</p>\n"
@@ -249,12 +261,16 @@ class PageWriter {
 
     std::string picture(const StabilityCell& cell, std::string_view title,
                         const std::string& caption) const {
+        const std::string words =
+            fmt::format("<figcaption><b>{}</b>{}</figcaption>", escaped(caption),
+                        cell.note.empty() ? "" : " (" + escaped(cell.note) + ")");
+        if (!pictured_)
+            return words;
         return fmt::format(
-            "<img loading=\"lazy\" alt=\"{}, {}\" src=\"{}\"/><figcaption><b>{}</b>{}"
-            "</figcaption>",
-            escaped(title), escaped(cell.configuration),
+            "<img loading=\"lazy\" alt=\"{}, {}\" src=\"{}\"/>{}", escaped(title),
+            escaped(cell.configuration),
             dataAddress(moves(cell) ? "image/gif" : "image/png", readFile(folder_ / cell.picture)),
-            escaped(caption), cell.note.empty() ? "" : " (" + escaped(cell.note) + ")");
+            words);
     }
 
     static bool moves(const StabilityCell& cell) {
@@ -276,6 +292,7 @@ class PageWriter {
     const std::vector<StabilityCell>& cells_;
     const fs::path& folder_;
     std::vector<std::string> names_;
+    bool pictured_;
 };
 
 std::string key() {
@@ -303,8 +320,11 @@ std::string stabilityHtml(std::span<const StabilityTest> tests,
                           const std::vector<StabilityCell>& cells, const fs::path& folder,
                           const std::string& about) {
     const PageWriter writer(tests, cells, folder);
-    return std::string(head) + std::string(introduction) + key() + writer.heatMap() +
-           writer.animation() + writer.sections() +
+    return std::string(head) + std::string(introduction) +
+           (writer.isPictured() ? ""
+                                : "<p class=\"aside\">The folder has no pictures, and this page "
+                                  "therefore has none.</p>\n") +
+           key() + writer.heatMap() + writer.animation() + writer.sections() +
            fmt::format("<h2>Measured with</h2>\n<pre class=\"aside\">{}</pre>\n", escaped(about)) +
            std::string(tail);
 }
