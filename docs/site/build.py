@@ -60,17 +60,17 @@ def sources(root):
 
 def navigation(pages, current, here):
     """The list of all pages as HTML, seen from the page `current` at the address `here`."""
-    sections = {title: dict(names) for title, names in SECTIONS.items()}
-    named = {name for names in sections.values() for name in names}
-    sections["Inside"].update({name: pages[name].title for name in pages if name not in named})
+    named = {name for names in SECTIONS.values() for name in names}
+    sections = {title: list(names) for title, names in SECTIONS.items()}
+    sections["Inside"] += [name for name in pages if name not in named]
     parts = []
     for title, names in sections.items():
         rows = []
-        for name, label in names.items():
+        for name in names:
             if name in pages:
                 mark = ' aria-current="page"' if name == current else ""
                 address = links.relative(pages[name].address, here)
-                rows.append(f'<li><a href="{address}"{mark}>{html.escape(label)}</a></li>')
+                rows.append(f'<li><a href="{address}"{mark}>{html.escape(pages[name].label)}</a></li>')
         if rows:
             parts.append(f"<section>\n<h2>{title}</h2>\n<ul>\n" + "\n".join(rows) + "\n</ul>\n</section>")
     return "\n".join(parts)
@@ -129,6 +129,9 @@ def prepare(out):
 def build(root, out, bench):
     """Writes the site and returns the mistakes, each with its place."""
     pages = {name: markdown.read(root, name) for name in sources(root)}
+    for names in SECTIONS.values():
+        for name in names.keys() & pages.keys():
+            pages[name].label = names[name]
     resolver = links.Resolver(root, pages)
     prepare(out)
     for name in ("style.css", "mark.svg"):
@@ -155,7 +158,7 @@ def build(root, out, bench):
 def main():
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     options.add_argument("--out", type=pathlib.Path, required=True, help="folder of the site")
-    options.add_argument("--bench", help="obscura-bench, which makes the pages of the results; without it there are none")
+    options.add_argument("--bench", help="obscura-bench, which makes the pages of results; without, there are none")
     options.add_argument("--root", type=pathlib.Path, default=HERE.parents[1], help="where README.md and docs are")
     given = options.parse_args()
     mistakes = build(given.root.resolve(), given.out, given.bench)

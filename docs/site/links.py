@@ -56,6 +56,12 @@ class Resolver:
             self.wrong(source, line, "a link to a file that is there", link)
         return relative(name.removeprefix("docs/"), here)
 
+    def name(self, source, element, link):
+        """What is called after a file, as in [docs/viewer.md](docs/viewer.md), is called after its page here."""
+        page = self.pages.get(self.target(source, link.partition("#")[0]))
+        if page and re.fullmatch(r"(docs/)?[\w.-]+\.md", element.text or "") and not len(element):
+            element.text = page.label
+
     def html(self, source, here):
         """The text of an HTML file whose links name sources, with those of the page at `here`."""
         rows = (self.root / source).read_text(encoding="utf-8").splitlines(keepends=True)

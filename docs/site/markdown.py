@@ -9,8 +9,8 @@ import xml.etree.ElementTree as xml
 import images
 
 # What cmark-gfm makes of Markdown. Anything else was written as HTML, which Markdown's other readers may drop.
-ELEMENTS = set("a blockquote body br code del em h1 h2 h3 h4 h5 h6 hr img li ol p pre strong table tbody td th thead tr ul"
-               .split())
+ELEMENTS = set("a blockquote body br code del em h1 h2 h3 h4 h5 h6 hr img li ol p pre strong".split()
+               + "table tbody td th thead tr ul".split())
 PLACE = "data-sourcepos"
 
 
@@ -20,6 +20,7 @@ class Page:
     address: str  # relative to the site, viewer.html
     tree: xml.Element
     title: str
+    label: str  # its name in the navigation
     description: str
     headings: list  # of (level, anchor, text)
 
@@ -101,7 +102,7 @@ def read(root, source):
         fail(source, 1, "expected a heading of the first level; found none")
     first = next((words(element) for element in tree if element.tag == "p"), "")
     description = re.split(r"(?<=[.!?:])\s", first.replace("\n", " "), maxsplit=1)[0].rstrip(":")
-    return Page(source, address_of(source), tree, headings[0][2], description, headings)
+    return Page(source, address_of(source), tree, headings[0][2], headings[0][2], description, headings)
 
 
 def anchored(element):
@@ -138,6 +139,7 @@ def body(page, resolver):
         key = {"a": "href", "img": "src"}.get(element.tag)
         if key:
             link = element.get(key)
+            resolver.name(page.source, element, link)
             element.set(key, resolver.address(page.source, place(element, link), link, page.address))
             if element.tag == "img":
                 element.attrib.update(images.size(resolver.file(page.source, link)))
@@ -154,6 +156,8 @@ def body(page, resolver):
             wide.tail, element.tail = element.tail, None
             parent[list(parent).index(element)] = wide
             wide.append(element)
+            if all(len(words(cell)) < 27 for row in element.iter("tr") for cell in row[1:]):
+                element.set("class", "short")  # numbers, which are read along the line
         elif element.tag == "pre":
             element.set("tabindex", "0")  # what scrolls must be reached by keys
     for element in page.tree.iter():

@@ -65,7 +65,8 @@ def listing(folders):
             chart = f"{folder.name}/figures/{folder.figure.name}"
             size = " ".join(f'{key}="{value}"' for key, value in images.size(folder.figure).items())
             address = f"{folder.name}/{folder.page}" if folder.page else chart
-            parts.append(f'<a href="{address}"><img src="{chart}" {size} loading="lazy" alt="Chart of {folder.name}"></a>')
+            image = f'<img src="{chart}" {size} loading="lazy" alt="Chart of {folder.name}">'
+            parts.append(f'<a href="{address}">{image}</a>')
         files = ([(folder.page, "page")] if folder.page else []) + [(name, name) for name in folder.files]
         rows = ", ".join(f'<a href="{folder.name}/{target}">{label}</a>' for target, label in files)
         items.append(f'<li id="{folder.name}"><strong>{folder.name}</strong>{"".join(parts)}<p>{rows}</p></li>')
