@@ -310,9 +310,13 @@ constexpr std::string_view introduction =
     "<p>Every technique with the settings of its paper or program, in scenes whose truth is known "
     "from closed forms or ray tracing. Lengths are in radii. Numbers are errors: 0 is perfect, "
     "above 0 is too dark unless the test says otherwise. Pick a number (click, or Enter; arrows "
-    "move) for its picture and all that was measured; pick a test for everybody's pictures.</p>\n"
+    "move) for its picture and all that was measured; pick a test for everybody's pictures.</p>\n";
+
+constexpr std::string_view aboutPictures =
     "<p class=\"aside\">Pictures: visibility on the left; on the right what is wrong with it, red "
     "too dark and blue too light, in full colour where the heat map is darkest.</p>\n";
+constexpr std::string_view aboutNoPictures =
+    "<p class=\"aside\">The folder has no pictures, and this page therefore has none.</p>\n";
 
 } // namespace
 
@@ -321,10 +325,8 @@ std::string stabilityHtml(std::span<const StabilityTest> tests,
                           const std::string& about) {
     const PageWriter writer(tests, cells, folder);
     return std::string(head) + std::string(introduction) +
-           (writer.isPictured() ? ""
-                                : "<p class=\"aside\">The folder has no pictures, and this page "
-                                  "therefore has none.</p>\n") +
-           key() + writer.heatMap() + writer.animation() + writer.sections() +
+           std::string(writer.isPictured() ? aboutPictures : aboutNoPictures) + key() +
+           writer.heatMap() + writer.animation() + writer.sections() +
            fmt::format("<h2>Measured with</h2>\n<pre class=\"aside\">{}</pre>\n", escaped(about)) +
            std::string(tail);
 }
