@@ -45,6 +45,7 @@ table { border-collapse: collapse; font-size: .85rem; }
 .map td.count { text-align: right; padding: 0 .6rem; font-weight: 600; }
 .map a:focus-visible, .map a:hover { outline: 3px solid #0072B2; outline-offset: -3px; }
 a { color: inherit; }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 .strip { display: flex; flex-wrap: wrap; gap: .8rem; margin-top: .6rem; }
 figure { margin: 0; max-width: 100%; }
 figure:target { outline: 3px solid #0072B2; outline-offset: 4px; }
