@@ -25,14 +25,18 @@ RESULTS = "docs/results/README.md"
 # What stands in the navigation, in this order, and under which name. A page that is named nowhere stands at the
 # end, under its own title.
 SECTIONS = {
-    "Begin": {"README.md": "Overview", "docs/install.md": "Installing"},
+    "Begin": {"README.md": "Overview"},
     "Experimenters": {
         "docs/viewer.md": "The viewer",
         "docs/scenes.md": "Scenes",
         "docs/protocols.md": "Protocol files",
     },
     "Participants": {"docs/measurement.md": "Measurement and data"},
-    "Analysts": {"docs/analysis.md": "Analysis", "docs/validity.md": "Validity"},
+    "Analysts": {
+        "docs/analysis.md": "Analysis",
+        "docs/validity.md": "Validity",
+        "docs/archive.md": "Archives of studies",
+    },
     "Techniques": {
         "docs/techniques.md": "Techniques",
         "docs/reference.md": "The reference",
