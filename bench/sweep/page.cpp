@@ -367,14 +367,14 @@ std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
                                     techniqueStyle(techniques.size()) + thumbnails.style,
                                 true) +
                        shapes(techniques.size()) + introduction(sweep);
-    if (thumbnails.areAbsent)
-        html +=
-            "<p class=\"aside\">The sweep's folder has no thumbnails, and this page therefore has "
-            "none.</p>\n";
     if (thumbnails.leftOut > 0)
         html += format("<p class=\"aside\">To keep the page small, the thumbnails of {} "
                        "configurations off every front are only in the sweep's folder.</p>\n",
                        thumbnails.leftOut);
+    if (thumbnails.areAbsent)
+        html +=
+            "<p class=\"aside\">The sweep's folder has no thumbnails, and this page therefore has "
+            "none.</p>\n";
     html += controls(techniques);
     std::size_t firstId = 0;
     for (const SweepGroup& group : groups) {
