@@ -91,7 +91,9 @@ TEST(SweepPage, HoldsEachThumbnailOnce) {
     writeFile(folder / "a.png", "not quite a PNG");
     EXPECT_EQ(count(sweepPage(sweep, folder.path()), dataAddress("image/png", "not quite a PNG")),
               1u);
-    sweep.rows[1].thumbnail = "missing.png";
+    for (SweepRow& row : sweep.rows)
+        if (row.technique != sweep.rows[0].technique)
+            row.thumbnail = "missing.png";
     EXPECT_THAT(test::errorOf([&] { sweepPage(sweep, folder.path()); }), HasSubstr("missing.png"));
 }
 
