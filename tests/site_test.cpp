@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -93,6 +94,17 @@ TEST_F(Site, OfThisSourceHasNoBrokenLinkAndIsValid) {
             if (entry.path().extension() == ".html") {
                 EXPECT_EQ(invalidities(entry.path()), "") << entry.path();
             }
+}
+
+// They travel with every clone.
+TEST(Pictures, AreSmall) {
+    std::uintmax_t total = 0;
+    for (const auto& entry : fs::directory_iterator(OBSCURA_SOURCE "/docs/pictures")) {
+        EXPECT_LE(entry.file_size(), 300'000u) << entry.path();
+        total += entry.file_size();
+    }
+    EXPECT_LE(total, 2'000'000u);
+    EXPECT_GT(total, 0u);
 }
 
 // The anchors are those that github.com gives the same headings.
