@@ -14,7 +14,7 @@ packages=(
     libcli11-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libboost-dev libeigen3-dev libssl-dev
     libpango1.0-dev libcairo2-dev libgtest-dev libgmock-dev libxtst-dev libxrandr-dev libx11-dev libembree-dev libnlopt-cxx-dev libimgui-dev libfreetype-dev libzip-dev
     libgl1-mesa-dri libegl1 libgl1 fonts-dejavu-core fonts-wqy-microhei gnuplot-nox xvfb xauth
-    man-db zsh
+    man-db zsh cmark-gfm python3 tidy
 )
 
 # What the sanitized build needs besides.

@@ -1,6 +1,7 @@
 #include "bench/stability/page.h"
 
 #include "base/files.h"
+#include "bench/kept_pictures.h"
 #include "bench/stability/csv.h"
 #include "report/html.h"
 
@@ -44,6 +45,7 @@ table { border-collapse: collapse; font-size: .85rem; }
 .map td.count { text-align: right; padding: 0 .6rem; font-weight: 600; }
 .map a:focus-visible, .map a:hover { outline: 3px solid #0072B2; outline-offset: -3px; }
 a { color: inherit; }
+pre { white-space: pre-wrap; overflow-wrap: anywhere; }
 .strip { display: flex; flex-wrap: wrap; gap: .8rem; margin-top: .6rem; }
 figure { margin: 0; max-width: 100%; }
 figure:target { outline: 3px solid #0072B2; outline-offset: 4px; }
@@ -147,6 +149,14 @@ std::string figureId(const StabilityTest& test, const std::string& configuration
     return escaped(id);
 }
 
+std::vector<std::string> picturesOf(const std::vector<StabilityCell>& cells) {
+    std::vector<std::string> names;
+    for (const StabilityCell& cell : cells)
+        if (!cell.picture.empty())
+            names.push_back(cell.picture);
+    return names;
+}
+
 // In the order of the file.
 std::vector<std::string> configurationsOf(const std::vector<StabilityCell>& cells) {
     std::vector<std::string> names;
@@ -161,7 +171,10 @@ class PageWriter {
   public:
     PageWriter(std::span<const StabilityTest> tests, const std::vector<StabilityCell>& cells,
                const fs::path& folder)
-        : tests_(tests), cells_(cells), folder_(folder), names_(configurationsOf(cells)) {}
+        : tests_(tests), cells_(cells), folder_(folder), names_(configurationsOf(cells)),
+          pictured_(keepsPictures(folder, picturesOf(cells))) {}
+
+    bool isPictured() const { return pictured_; }
 
     std::string heatMap() const {
         std::string html = "<div class=\"wide\"><table class=\"map\">\n<thead><tr><th></th>";
@@ -179,7 +192,7 @@ class PageWriter {
         for (const StabilityCell& cell : cells_)
             if (moves(cell) && (!worst || cell.value > worst->value))
                 worst = &cell;
-        if (!worst)
+        if (!worst || !pictured_)
             return {};
         return fmt::format("<h2>The worst flicker</h2>\n<p class=\"aside\">From left to "
                            "right: visibility, the truth, unreal change.</p>\n"
@@ -249,12 +262,16 @@ class PageWriter {
 
     std::string picture(const StabilityCell& cell, std::string_view title,
                         const std::string& caption) const {
+        const std::string words =
+            fmt::format("<figcaption><b>{}</b>{}</figcaption>", escaped(caption),
+                        cell.note.empty() ? "" : " (" + escaped(cell.note) + ")");
+        if (!pictured_)
+            return words;
         return fmt::format(
-            "<img loading=\"lazy\" alt=\"{}, {}\" src=\"{}\"/><figcaption><b>{}</b>{}"
-            "</figcaption>",
-            escaped(title), escaped(cell.configuration),
+            "<img loading=\"lazy\" alt=\"{}, {}\" src=\"{}\"/>{}", escaped(title),
+            escaped(cell.configuration),
             dataAddress(moves(cell) ? "image/gif" : "image/png", readFile(folder_ / cell.picture)),
-            escaped(caption), cell.note.empty() ? "" : " (" + escaped(cell.note) + ")");
+            words);
     }
 
     static bool moves(const StabilityCell& cell) {
@@ -276,6 +293,7 @@ class PageWriter {
     const std::vector<StabilityCell>& cells_;
     const fs::path& folder_;
     std::vector<std::string> names_;
+    bool pictured_;
 };
 
 std::string key() {
@@ -293,9 +311,13 @@ constexpr std::string_view introduction =
     "<p>Every technique with the settings of its paper or program, in scenes whose truth is known "
     "from closed forms or ray tracing. Lengths are in radii. Numbers are errors: 0 is perfect, "
     "above 0 is too dark unless the test says otherwise. Pick a number (click, or Enter; arrows "
-    "move) for its picture and all that was measured; pick a test for everybody's pictures.</p>\n"
+    "move) for its picture and all that was measured; pick a test for everybody's pictures.</p>\n";
+
+constexpr std::string_view aboutPictures =
     "<p class=\"aside\">Pictures: visibility on the left; on the right what is wrong with it, red "
     "too dark and blue too light, in full colour where the heat map is darkest.</p>\n";
+constexpr std::string_view aboutNoPictures =
+    "<p class=\"aside\">The folder has no pictures, and this page therefore has none.</p>\n";
 
 } // namespace
 
@@ -303,8 +325,9 @@ std::string stabilityHtml(std::span<const StabilityTest> tests,
                           const std::vector<StabilityCell>& cells, const fs::path& folder,
                           const std::string& about) {
     const PageWriter writer(tests, cells, folder);
-    return std::string(head) + std::string(introduction) + key() + writer.heatMap() +
-           writer.animation() + writer.sections() +
+    return std::string(head) + std::string(introduction) +
+           std::string(writer.isPictured() ? aboutPictures : aboutNoPictures) + key() +
+           writer.heatMap() + writer.animation() + writer.sections() +
            fmt::format("<h2>Measured with</h2>\n<pre class=\"aside\">{}</pre>\n", escaped(about)) +
            std::string(tail);
 }

@@ -1,6 +1,8 @@
 #include "bench/sweep/page.h"
 
 #include "base/files.h"
+#include "bench/kept_pictures.h"
+#include "bench/sweep/files.h"
 #include "bench/sweep/page_front_script.h"
 #include "bench/sweep/page_introduction.h"
 #include "bench/sweep/page_style.h"
@@ -267,10 +269,18 @@ std::string growthSection(const Sweep& sweep) {
 struct Thumbnails {
     std::string style;
     std::size_t leftOut = 0;
+    bool areAbsent = false; // all of them
 };
 Thumbnails thumbnailsOf(const std::vector<SweepGroup>& groups,
                         const std::filesystem::path& folder) {
     Thumbnails result;
+    std::vector<std::string> names;
+    for (const SweepGroup& group : groups)
+        for (const SweepRow& point : group.points)
+            if (!point.thumbnail.empty())
+                names.push_back(point.thumbnail);
+    if (!keepsPictures(folder, names))
+        return {".thumb { display: none; }\n", 0, !names.empty()};
     std::vector<std::string> fronts, others;
     std::size_t firstId = 0, size = 0;
     for (const SweepGroup& group : groups) {
@@ -308,6 +318,10 @@ std::string sweepPage(const Sweep& sweep, const std::filesystem::path& folder) {
         html += format("<p class=\"aside\">To keep the page small, the thumbnails of {} "
                        "configurations off every front are only in the sweep's folder.</p>\n",
                        thumbnails.leftOut);
+    if (thumbnails.areAbsent)
+        html +=
+            "<p class=\"aside\">The sweep's folder has no thumbnails, and this page therefore has "
+            "none.</p>\n";
     html += controls(techniques);
     std::size_t firstId = 0;
     for (const SweepGroup& group : groups) {

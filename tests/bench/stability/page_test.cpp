@@ -108,5 +108,17 @@ TEST_F(StabilityFiles, MissingPictureIsNamed) {
     }
 }
 
+// As the results in docs/results are: what was measured is there all the same.
+TEST_F(StabilityFiles, PageHasNoPicturesWhereTheFolderHasNone) {
+    const std::string with = stabilityHtml(tests, sample(), folder, "{}");
+    fs::remove_all(folder / "pictures");
+    const std::string page = stabilityHtml(tests, sample(), folder, "{}");
+    EXPECT_THAT(with, Not(HasSubstr("no pictures")));
+    EXPECT_THAT(page, HasSubstr("no pictures"));
+    EXPECT_THAT(page, Not(HasSubstr("<img")));
+    EXPECT_THAT(page, HasSubstr("<figure id=\"halo-hbao_steps=8\"><figcaption><b>hbao steps=8: "));
+    EXPECT_THAT(page, HasSubstr("<td>the most</td><td>0.500</td>"));
+}
+
 } // namespace
 } // namespace obscura
