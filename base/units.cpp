@@ -431,9 +431,10 @@ std::optional<std::string> Units::claimNext(const std::string& group,
         std::uint32_t stride = 1;
         for (std::size_t at = 0; at < open.size(); at += 1 + self_->random.below(stride)) {
             const std::string& name = open[at].unit->name;
-            stride = std::min<std::uint32_t>(2 * stride, 1u << 20);
-            if (!self_->claim(name, open[at].last.number + 1))
+            if (!self_->claim(name, open[at].last.number + 1)) {
+                stride = std::min<std::uint32_t>(2 * stride, 1u << 20);
                 continue;
+            }
             if (!isDone(name))
                 return name;
             self_->release(name); // finished since the listing
