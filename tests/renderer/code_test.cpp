@@ -27,11 +27,11 @@ std::set<std::string> sourcesOf(const std::string& function) {
 }
 
 // What sources include but what cannot decide a pixel, by the file's name without extension:
-// errors, files, formats, who we are; and what has a hash of its own.
+// errors, files and where they lie, formats, who we are; and what has a hash of its own.
 bool decidesNothing(const std::string& stem) {
-    static const std::set<std::string> names{"error", "files",    "manifest", "protocol", "markup",
-                                             "trial", "progress", "process",  "version",  "code",
-                                             "timer", "window",   "builtin",  "study"};
+    static const std::set<std::string> names{
+        "error",   "files", "manifest", "protocol", "markup",  "trial", "progress", "process",
+        "version", "code",  "timer",    "window",   "builtin", "study", "shipped"};
     return names.contains(stem);
 }
 
