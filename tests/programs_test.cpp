@@ -46,13 +46,16 @@ const std::string tiny = camera + " --width 32 --height 18 --antialiasing 1";
 const std::string small = tiny + " --out @/o.png";
 
 TEST(Programs, ExplainThemselves) {
-    for (const char* program :
-         {"obscura-render", "obscura-render compare", "obscura-stimuli", "obscura-stimuli match",
-          "obscura-experiment", "obscura-experiment ledger", "obscura-analysis", "obscura-archive",
-          "obscura-bench", "obscura-bench rays", "obscura-bench normals", "obscura-bench passes",
-          "obscura-bench sweep", "obscura-bench merge", "obscura-bench page",
-          "obscura-bench ablation", "obscura-bench status", "obscura-bench choose",
-          "obscura-bench stability", "obscura-view"}) {
+    for (const char* program : {"obscura-render",          "obscura-render compare",
+                                "obscura-stimuli",         "obscura-stimuli match",
+                                "obscura-experiment",      "obscura-experiment ledger",
+                                "obscura-analysis",        "obscura-archive",
+                                "obscura-bench",           "obscura-bench rays",
+                                "obscura-bench normals",   "obscura-bench passes",
+                                "obscura-bench sweep",     "obscura-bench merge",
+                                "obscura-bench page",      "obscura-bench ablation",
+                                "obscura-bench status",    "obscura-bench choose",
+                                "obscura-bench stability", "obscura-view"}) {
         const Outcome outcome = run(std::string(program) + " --help");
         EXPECT_EQ(outcome.status, 0) << program;
         EXPECT_THAT(outcome.said, HasSubstr("Usage:")) << program;
