@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/process.h"
-#include "base/units.h"
+#include "base/work_unit.h"
 
 #include <filesystem>
 #include <functional>

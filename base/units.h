@@ -1,5 +1,7 @@
 #pragma once
 
+#include "base/work_unit.h"
+
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -14,35 +16,13 @@ namespace obscura {
 // Long work, shared through one folder by any number of processes on any number of machines. It
 // consists of units: pieces that are done whole or not at all, each with a text as its result.
 //
-// FOLDER/units/plan.json lists all units, and what decides their results. FOLDER/units/NAME.done
-// is the result of a finished unit; it appears whole (writeNewFile()), and the first stays: what
-// another process finishes later is thrown away. So no unit can be lost, and none can count twice,
-// whatever happens to clocks, machines and processes. FOLDER/units/NAME.claim-N says who is at
-// work, which keeps others from doing the same for nothing: the holder touches it while it works,
-// and who finds it untouched for the length of a lease, or its process gone, makes claim N + 1.
-
-struct WorkUnit {
-    std::string name;  // unique; any text
-    std::string group; // units of a group share what is slow to prepare, such as a view of a scene
-    double cost = 1;   // about how long it takes, in any measure that all units share
-};
-
-// What is known of a folder's units: by those who work, and by `obscura-bench status`.
-struct UnitsState {
-    struct Held {
-        std::string name, machine; // of the claim that counts
-        long pid = 0;
-        double seconds = 0; // since it was claimed
-    };
-
-    std::size_t units = 0, done = 0;
-    double cost = 0, costDone = 0;
-    std::vector<Held> held;          // by processes that live, as far as one can tell
-    std::vector<std::string> broken; // claims whose process ended or whose lease ran out
-    // Of all workers together, by what was finished in the last while; nothing before two units
-    // are done, and of work that nobody does.
-    std::optional<double> secondsLeft;
-};
+// FOLDER/units/about says what decides all results, FOLDER/units/plan-HASH.json lists the units of
+// one command, and FOLDER/units/NAME.done is the result of a finished unit; it appears whole
+// (writeNewFile()), and the first stays: what another process finishes later is thrown away. So no
+// unit can be lost, and none can count twice, whatever happens to clocks, machines and processes.
+// FOLDER/units/NAME.claim-N says who is at work, which keeps others from doing the same for
+// nothing: the holder touches it while it works, and who finds it untouched for the length of a
+// lease, or its process gone, makes claim N + 1.
 
 // Throws an Error where the folder has no plan, or one that cannot be read.
 UnitsState unitsState(const std::filesystem::path& folder,
@@ -57,8 +37,9 @@ class Units {
     // there.
     using Stands = std::function<bool(const std::string& name, const std::string& result)>;
 
-    // `about` is what decides results (study, program): a folder whose plan has another, or other
-    // units, is an Error that shows both and says to name another folder. Where the work of an
+    // `about` is what decides results (study, program): a folder about something
+    // else is an Error that shows both and says to name another folder; one with other units is
+    // not, and results that both plans have count for both. Where the work of an
     // earlier run no longer `stands`, the unit is open again.
     Units(std::filesystem::path folder, std::string about, std::vector<WorkUnit> plan,
           Lease lease = std::chrono::minutes(2), Stands stands = {});
