@@ -16,8 +16,6 @@ namespace {
 
 std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
 
-std::string pText(double p) { return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p); }
-
 // With a real minus sign, and no sign for what rounds to zero.
 std::string signedText(double value, int decimals) {
     if (std::abs(value) < 0.5 * std::pow(10.0, -decimals))
@@ -53,7 +51,7 @@ std::string cellOf(const Field& field, const Tally& tally, const std::optional<V
         return field.label(tally);
     if (!verdict)
         return dash;
-    return field.adjusted ? pText(*verdict.*field.adjusted) : field.figure(tally);
+    return field.adjusted ? pCell(*verdict.*field.adjusted) : field.figure(tally);
 }
 
 template <auto field>
@@ -87,8 +85,8 @@ const Field printed[] = {
      }},
     {"same, orders balanced", true, balanced},
     {"χ²", true, nullptr, [](const T& t) { return fmt::format("{:.3f}", chiSquare(t.votes)); }},
-    {"p (χ²)", true, nullptr, [](const T& t) { return pText(chiSquareP(chiSquare(t.votes))); }},
-    {"p (exact)", true, nullptr, [](const T& t) { return pText(exactP(t.votes)); }},
+    {"p (χ²)", true, nullptr, [](const T& t) { return pCell(chiSquareP(chiSquare(t.votes))); }},
+    {"p (exact)", true, nullptr, [](const T& t) { return pCell(exactP(t.votes)); }},
     {"p (Holm)", true, nullptr, nullptr, &Verdict::holm},
     {"g", true, nullptr, [](const T& t) { return signedText(cohenG(t.votes), 3); }},
     {"JOD", true, nullptr, [](const T& t) { return jodText(t.votes); }},
@@ -142,6 +140,8 @@ std::string alignedLine(const Table& table, const std::vector<std::string>& cell
 }
 
 } // namespace
+
+std::string pCell(double p) { return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p); }
 
 Table resultTable(const std::vector<Tally>& tallies) {
     const bool orders = std::any_of(tallies.begin(), tallies.end(), [](const Tally& tally) {
@@ -227,8 +227,8 @@ Table testTable(const Findings& findings) {
         };
         table.rows.push_back({std::string(one.kind->question), one.result.about,
                               std::string(one.kind->source), number(&Test::statistic),
-                              number(&Test::df), test ? pText(test->p) : dash,
-                              one.holm ? pText(*one.holm) : dash, one.result.note});
+                              number(&Test::df), test ? pCell(test->p) : dash,
+                              one.holm ? pCell(*one.holm) : dash, one.result.note});
     }
     return table;
 }

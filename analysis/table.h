@@ -18,6 +18,9 @@ struct Table {
 };
 Table resultTable(const std::vector<Tally>& tallies);
 
+// A p-value as a cell: three decimals, or "<0.001".
+std::string pCell(double p);
+
 // Tests beyond single conditions.
 Table testTable(const Findings& findings);
 

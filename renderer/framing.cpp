@@ -5,6 +5,7 @@
 #include "base/random.h"
 #include "renderer/extent.h"
 #include "renderer/found_cameras.h"
+#include "renderer/frame/vec3.h"
 #include "renderer/glimpse.h"
 
 #include <fmt/format.h>
@@ -29,7 +30,6 @@ constexpr double eyeHeight = 1.6;      // metres
 constexpr double elbowRoom = 0.05;     // of the scene's size, where one would rather stand
 constexpr double roomOfThings = 12;    // sizes of what stands in it, to be more than a backdrop
 
-glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 Vec3 arrayOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 glm::dvec3 middleOf(const Bounds& bounds) {

@@ -1,6 +1,7 @@
 #include "analysis/scales/scale_table.h"
 
 #include "analysis/scales/scale_words.h"
+#include "analysis/table.h"
 #include "base/csv.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,6 @@ namespace obscura {
 namespace {
 
 constexpr const char* dash = "–";
-
-std::string pText(double p) { return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p); }
 
 std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
 
@@ -120,7 +119,7 @@ Table scaleTable(const std::vector<Scaled>& scales) {
             const ScaleStep* step = stepFrom(result, i);
             table.rows.push_back({std::string(kind->heading), placeOf(result.group), item.name,
                                   spelt(item.value, decimals), spelt(item.interval, decimals),
-                                  result.unit, step && step->holm ? pText(*step->holm) : dash});
+                                  result.unit, step && step->holm ? pCell(*step->holm) : dash});
         }
         if (result.curve)
             for (const ScaleItem& item : result.items)

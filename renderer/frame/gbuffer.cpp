@@ -1,6 +1,7 @@
 #include "renderer/frame/gbuffer.h"
 
 #include "base/shipped.h"
+#include "renderer/frame/vec3.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
@@ -13,8 +14,6 @@
 namespace obscura {
 
 namespace {
-
-glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 // A depth beyond every corner of the scene, so that no surface is taken for an empty pixel.
 double emptyDepth(const glm::dmat4& viewFromWorld, const Bounds& bounds, double near) {

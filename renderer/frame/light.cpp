@@ -1,5 +1,7 @@
 #include "renderer/frame/light.h"
 
+#include "renderer/frame/vec3.h"
+
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -13,8 +15,6 @@ namespace obscura {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 std::span<const float, 3> span3(const glm::vec3& v) {
     return std::span<const float, 3>(glm::value_ptr(v), 3);

@@ -1,6 +1,7 @@
 #include "renderer/frame/panorama.h"
 
 #include "base/parallel.h"
+#include "renderer/frame/vec3.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +12,6 @@ namespace obscura {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
 
 // Real spherical harmonics, orders 0 to 2, in the order of shaders/light.frag.
 std::array<double, 9> basis(const glm::dvec3& d) {

@@ -24,6 +24,14 @@ std::string spelt(const nlohmann::json& value) {
 
 } // namespace
 
+const nlohmann::json* extensionOf(const nlohmann::json& object, const char* name) {
+    const auto extensions = object.find("extensions");
+    if (extensions == object.end())
+        return nullptr;
+    const auto found = extensions->find(name);
+    return found == extensions->end() ? nullptr : &*found;
+}
+
 void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
               const std::string& message) {
     throw Error({file.string(), 0, 0, jsonPath}, message);

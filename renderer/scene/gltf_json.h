@@ -15,6 +15,9 @@ namespace obscura {
 [[noreturn]] void failGltf(const std::filesystem::path& file, const std::string& jsonPath,
                            const std::string& message);
 
+// What an extension adds to an object of a checked file; null where it adds nothing.
+const nlohmann::json* extensionOf(const nlohmann::json& object, const char* name);
+
 // What the checks of a glTF file's JSON are written with (gltf_check.h): a value of the expected
 // kind at a key, or an Error that names file, JSON path, expected and found. `at` is the JSON path
 // of the object that holds the key. An optional key that is missing gives nothing.

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "renderer/scene/gltf_check.h"
+#include "renderer/scene/gltf_json.h"
 
 #include <fmt/format.h>
 
@@ -29,15 +30,6 @@ Wrap wrapOf(int mode) {
     default:
         return Wrap::repeat;
     }
-}
-
-// What an extension adds to an object of a checked file; null where it adds nothing.
-const json* extensionOf(const json& object, const char* name) {
-    const auto extensions = object.find("extensions");
-    if (extensions == object.end())
-        return nullptr;
-    const auto found = extensions->find(name);
-    return found == extensions->end() ? nullptr : &*found;
 }
 
 // As many numbers as a vector of this kind has.

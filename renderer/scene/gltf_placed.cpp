@@ -31,13 +31,6 @@ glm::dmat4 transform(const glm::dvec3& translation, const glm::dvec4& rotation,
     return result;
 }
 
-// What a file's extension adds to an object; null where it adds nothing.
-const json* extensionOf(const json& object, const char* name) {
-    const auto extensions = object.find("extensions");
-    return extensions != object.end() && extensions->contains(name) ? &extensions->at(name)
-                                                                    : nullptr;
-}
-
 // One of the attributes of a node's instances, where it has it.
 class Instances {
   public:
