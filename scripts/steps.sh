@@ -55,7 +55,7 @@ step() {
     [ -t 2 ] && printf '\r\033[K' >&2
     if ! wait $job; then
         local reason
-        reason=$(grep -m1 -E 'error|Error|^E:|FAILED' "$log" || tail -n 1 "$log")
+        reason=$(grep -m1 -E '[Ee]rror: |^E:|FAILED' "$log" || tail -n 1 "$log")
         fail "$label failed: $reason (all of it: $log)"
     fi
     say "$label: done in $(spell $((SECONDS - start)))"

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "protocols/reader/study.h"
+
+#include <glm/glm.hpp>
+
+namespace obscura {
+
+// What a protocol says of a place or a direction, as renderers reckon with it.
+inline glm::dvec3 vec(const Vec3& v) { return {v[0], v[1], v[2]}; }
+
+} // namespace obscura
