@@ -70,6 +70,7 @@ install(DIRECTORY ${share}/bash-completion ${share}/zsh DESTINATION ${CMAKE_INST
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN techniques.in.md EXCLUDE)
 install(FILES analysis/thesis_table4.csv DESTINATION ${CMAKE_INSTALL_DOCDIR}/analysis)
+install(PROGRAMS scripts/cluster/parallel.sh scripts/cluster/slurm.sh DESTINATION ${CMAKE_INSTALL_DOCDIR}/scripts/cluster)
 
 # A Debian package: cpack -G DEB, or scripts/package.
 set(CPACK_GENERATOR DEB)

@@ -176,7 +176,7 @@ Conduct conductOf(const Answers& answers) {
 
 namespace {
 
-std::string people(const Conduct& c) {
+std::string peopleLine(const Conduct& c) {
     std::string text = fmt::format("{} in {} sessions, {} to {}", c.participants, c.sessions,
                                    c.firstTime, c.lastTime);
     if (c.incomplete > 0)
@@ -297,7 +297,7 @@ std::string images(const Conduct& c) {
 
 std::vector<Fact> factsOf(const Conduct& conduct) {
     if (conduct.shown.empty()) // trials that are no pairs
-        return {{"Participants", people(conduct)},
+        return {{"Participants", peopleLine(conduct)},
                 {"Trials", trials(conduct)},
                 {"Median time to the answer (5–95 %)", seconds(conduct.decisionMs)},
                 {"Machine", fmt::format("{}", fmt::join(conduct.machines, ", "))},
@@ -305,7 +305,7 @@ std::vector<Fact> factsOf(const Conduct& conduct) {
                  fmt::format("obscura-experiment {}", fmt::join(conduct.programs, ", "))},
                 {"Protocol, SHA-256", fmt::format("{}", fmt::join(conduct.protocols, ", "))}};
     return {
-        {"Participants", people(conduct)},
+        {"Participants", peopleLine(conduct)},
         {"Trials", trials(conduct)},
         {"Order of conditions", conditionOrder(conduct)},
         {"Order within pairs", imageOrder(conduct)},

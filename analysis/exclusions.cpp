@@ -146,8 +146,8 @@ void moveTrials(std::vector<Answer>& rows, Excluded& excluded, const std::string
             [&](const Answer& answer) { return concerned(answer) ? &why : nullptr; }, false);
 }
 
-constexpr std::array<std::string_view, 4> columns = {"participant_id", "session_id", "condition_id",
-                                                     "reason"};
+constexpr std::array<std::string_view, 4> ruleColumns = {"participant_id", "session_id",
+                                                         "condition_id", "reason"};
 
 // One line of the file.
 struct Asked {
@@ -167,9 +167,9 @@ Asked askedOf(const CsvRecord& record, const std::string& file) {
     const Place place{file, record.line, 0, {}};
     if (!record.fault.empty())
         throw Error(place, record.fault);
-    if (record.cells.size() != columns.size())
-        throw Error(place, fmt::format("expected {} cells, {}, found {}", columns.size(),
-                                       fmt::join(columns, ","), record.cells.size()));
+    if (record.cells.size() != ruleColumns.size())
+        throw Error(place, fmt::format("expected {} cells, {}, found {}", ruleColumns.size(),
+                                       fmt::join(ruleColumns, ","), record.cells.size()));
     const auto& cells = record.cells;
     if (cells[3].empty())
         throw Error({file, record.line, 4, "reason"}, "expected a reason, found nothing");
@@ -184,9 +184,9 @@ std::vector<Asked> readAsked(const std::filesystem::path& path) {
     std::vector<CsvRecord> records = splitCsv(text);
     std::erase_if(records, isBlank);
     if (records.empty() || !std::equal(records[0].cells.begin(), records[0].cells.end(),
-                                       columns.begin(), columns.end()))
+                                       ruleColumns.begin(), ruleColumns.end()))
         throw Error({file, 1, 0, {}},
-                    fmt::format("expected the header {}", fmt::join(columns, ",")));
+                    fmt::format("expected the header {}", fmt::join(ruleColumns, ",")));
     std::vector<Asked> asked;
     for (const CsvRecord& record : std::span(records).subspan(1))
         asked.push_back(askedOf(record, file));

@@ -20,14 +20,14 @@ std::vector<StudyFigure> usablePrices(const Findings& findings) {
     return isUnusable(findings) ? std::vector<StudyFigure>() : priceFigures(findings);
 }
 
-constexpr FiguresOf kinds[] = {usablePrices, sharesFigures, usableScales, positionFigures,
-                               powerFigures, flowFigures,   timesFigures, timingFigures};
+constexpr FiguresOf figureKinds[] = {usablePrices, sharesFigures, usableScales, positionFigures,
+                                     powerFigures, flowFigures,   timesFigures, timingFigures};
 
 } // namespace
 
 std::vector<StudyFigure> figuresOf(const Findings& findings) {
     std::vector<StudyFigure> figures;
-    for (const FiguresOf& kind : kinds) {
+    for (const FiguresOf& kind : figureKinds) {
         std::vector<StudyFigure> some = kind(findings);
         std::move(some.begin(), some.end(), std::back_inserter(figures));
     }

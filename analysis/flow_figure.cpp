@@ -11,7 +11,7 @@ namespace obscura {
 namespace {
 
 // Lengths are pixels of the page, in which the type is 13 high.
-constexpr double glyphWidth = 7.3, lineHeight = 18, padding = 8, gap = 16, edge = 4;
+constexpr double letterWidth = 7.3, lineHeight = 18, padding = 8, gap = 16, edge = 4;
 
 // A stage of the study, or those that are lost before the next.
 struct Box {
@@ -86,7 +86,7 @@ class Drawing {
         std::vector<std::string> lines;
         for (const std::string& line : box.lines)
             for (const std::string& part :
-                 wrapped(line, static_cast<std::size_t>(room / glyphWidth)))
+                 wrapped(line, static_cast<std::size_t>(room / letterWidth)))
                 lines.push_back(part);
         box.lines = lines;
         place.bottom = place.top + 2 * padding + lineHeight * static_cast<double>(box.lines.size());

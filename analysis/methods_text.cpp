@@ -40,7 +40,7 @@ std::string conditions(const Findings& findings) {
                        counted(levels.size(), "level"), fmt::join(levels, ", "));
 }
 
-std::string seconds(const Percentiles& ms) {
+std::string secondsSentence(const Percentiles& ms) {
     return fmt::format("{:.2f} s (median; 5th to 95th percentile {:.2f} to {:.2f} s)",
                        ms.median / 1000, ms.low / 1000, ms.high / 1000);
 }
@@ -54,7 +54,7 @@ std::string orderWithin(const Conduct& conduct) {
     return fmt::format("Image b came second in {} of {} trials.", second, first + second);
 }
 
-std::string people(const Conduct& c) {
+std::string participants(const Conduct& c) {
     std::string text;
     if (c.simulated > 0)
         text = fmt::format("SIMULATED: {} of {} trials were answered by a program. ", c.simulated,
@@ -84,7 +84,7 @@ std::string procedure(const Conduct& c) {
     return fmt::format("In each trial the two images of a pair were seen one after the other, for "
                        "as long as the participant wished, with a grey mask of {} between them; "
                        "then the participant chose one. {} [Add: the words of the question.]",
-                       seconds(c.maskMs), orderWithin(c));
+                       secondsSentence(c.maskMs), orderWithin(c));
 }
 
 std::string apparatus(const Conduct& c) {
@@ -184,7 +184,7 @@ std::vector<std::string> methodsText(const Findings& findings) {
     if (findings.conduct) {
         const Conduct& conduct = *findings.conduct;
         paragraphs[0] += " " + procedure(conduct);
-        paragraphs.push_back(people(conduct));
+        paragraphs.push_back(participants(conduct));
         paragraphs.push_back(apparatus(conduct));
     } else {
         paragraphs.emplace_back("The counts were published. [Add: where; and participants, "

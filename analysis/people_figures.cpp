@@ -94,7 +94,7 @@ std::string positionScript(const Findings& findings, const Bins& bins, double wi
 
 // -- Times --
 
-std::string seconds(double ms) { return fmt::format("{:.2f} s", ms / 1000); }
+std::string secondsLabel(double ms) { return fmt::format("{:.2f} s", ms / 1000); }
 
 std::string timesScript(const Findings& findings, const ResponseTimes& times, double width) {
     std::string boxes, medians, flagged, labels;
@@ -199,10 +199,10 @@ std::vector<StudyFigure> timesFigures(const Findings& findings) {
     for (const ResponseTimes::Measure& one : times.measures) {
         const auto& [q05, q25, q50, q75, q95] = one.quantiles;
         const Summary& s = one.summary;
-        figure.numbers.rows.push_back({std::string(one.name), seconds(q05), seconds(q25),
-                                       seconds(q50), seconds(q75), seconds(q95), seconds(s.mad),
-                                       s.geometricMean ? seconds(*s.geometricMean) : "–",
-                                       seconds(s.trimmedMean)});
+        figure.numbers.rows.push_back(
+            {std::string(one.name), secondsLabel(q05), secondsLabel(q25), secondsLabel(q50),
+             secondsLabel(q75), secondsLabel(q95), secondsLabel(s.mad),
+             s.geometricMean ? secondsLabel(*s.geometricMean) : "–", secondsLabel(s.trimmedMean)});
     }
     return {figure};
 }

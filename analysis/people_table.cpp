@@ -1,5 +1,6 @@
 #include "analysis/people_table.h"
 
+#include "analysis/table.h"
 #include "base/csv.h"
 
 #include <fmt/format.h>
@@ -11,8 +12,6 @@
 namespace obscura {
 
 namespace {
-
-std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
 
 // A column of people.csv.
 struct PersonCell {

@@ -66,7 +66,7 @@ std::vector<std::int64_t> drawn(const std::vector<Tally>& tallies) {
     return all;
 }
 
-constexpr const char* style = R"(set xrange [50:100]
+constexpr const char* powerStyle = R"(set xrange [50:100]
 set yrange [0:100]
 set xtics 50, 10, 100 nomirror out format '%.0f %%'
 set ytics 0, 20, 100 nomirror out format '%.0f %%'
@@ -107,7 +107,7 @@ std::string script(const Findings& findings) {
     data += plot::block("seen", seen);
     elements.emplace_back("$seen using 1:(2.5) with points pointtype 10 pointsize 1 linewidth 1.5 "
                           "linecolor rgb '#333333' title 'shares seen'");
-    return plot::style + std::string(style) + data + "plot " + plot::list(elements) + "\n";
+    return plot::style + std::string(powerStyle) + data + "plot " + plot::list(elements) + "\n";
 }
 
 Table numbersOf(const std::vector<Tally>& tallies) {

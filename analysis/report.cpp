@@ -80,7 +80,7 @@ Part claims(const Findings& findings) {
             findings.claims.empty() ? "" : tableHtml(claimTable(findings.claims), "Each claim")};
 }
 
-Part conditions(const Findings& findings) {
+Part conditionsPart(const Findings& findings) {
     return {"numbers-conditions", "Each condition",
             findings.tallies.empty()
                 ? ""
@@ -188,7 +188,7 @@ Part deviated(const std::vector<Deviation>& deviations) {
 }
 
 std::vector<Part> tablesOf(const Findings& findings, const std::vector<Deviation>& deviations) {
-    return present({claims(findings), deviated(deviations), conditions(findings),
+    return present({claims(findings), deviated(deviations), conditionsPart(findings),
                     excluded(findings), acrossConditions(findings), scales(findings),
                     everyStatistic(findings)});
 }

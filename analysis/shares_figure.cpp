@@ -44,12 +44,13 @@ std::string fitted(const std::string& text, double width) {
     return shortened(text, static_cast<std::size_t>(width / glyphWidth));
 }
 
-std::string pairOf(const Tally& tally) {
+std::string pairText(const Tally& tally) {
     return fmt::format("{} / {}", tally.techniqueA, tally.techniqueB);
 }
 
 std::string labelOf(const Tally& tally) {
-    return tally.scene.empty() ? pairOf(tally) : fmt::format("{}: {}", tally.scene, pairOf(tally));
+    return tally.scene.empty() ? pairText(tally)
+                               : fmt::format("{}: {}", tally.scene, pairText(tally));
 }
 
 struct Chart {
@@ -94,7 +95,7 @@ double stackedRow(Chart& chart, std::size_t i, double y) {
     const double room = chart.width - countsWidth + 20 - chart.left;
     std::vector<std::string> lines = {labelOf(tally)};
     if (widthOf(lines[0]) > room && !tally.scene.empty())
-        lines = {tally.scene + ":", pairOf(tally)};
+        lines = {tally.scene + ":", pairText(tally)};
     chart.labels += label(chart, gnuplotText(fmt::format("{} : {}", tally.votes.a, tally.votes.b)),
                           chart.width - edge, y + lineHeight / 2, "right");
     for (std::size_t line = 0; line < lines.size(); ++line)
@@ -118,13 +119,13 @@ double row(Chart& chart, std::size_t i, double y) {
 }
 
 // Of the key: entries side by side, as far as there is room, and the heading of the counts below.
-struct Entry {
+struct KeyEntry {
     const Look* look;
     double x = 0, y = 0; // from the top
 };
 
-std::vector<Entry> keyOf(const Chart& chart) {
-    std::vector<Entry> entries;
+std::vector<KeyEntry> keyOf(const Chart& chart) {
+    std::vector<KeyEntry> entries;
     double x = edge, y = edge + lineHeight / 2;
     for (std::size_t i = 0; i < looks.size(); ++i) {
         if (chart.marks[i].empty())
@@ -140,7 +141,7 @@ std::vector<Entry> keyOf(const Chart& chart) {
     return entries;
 }
 
-std::string headScript(const Chart& chart, const std::vector<Entry>& key) {
+std::string headScript(const Chart& chart, const std::vector<KeyEntry>& key) {
     std::string script = fmt::format(
         "set label 'votes a : b' at screen {:.5f}, screen {:.5f} right\n",
         (chart.width - edge) / chart.width, 1 - (chart.head - lineHeight / 2) / chart.height);
@@ -152,7 +153,7 @@ std::string headScript(const Chart& chart, const std::vector<Entry>& key) {
     return script;
 }
 
-constexpr const char* style = R"(set encoding utf8
+constexpr const char* sharesStyle = R"(set encoding utf8
 set border 1 linecolor rgb '#555555'
 set xrange [0:100]
 set xtics 0, 25, 100 nomirror out format '%.0f %%'
@@ -218,11 +219,11 @@ Figure draw(const Findings& findings, std::span<const Tally> tallies,
         }
         y += stacked ? stackedRow(chart, i, y) : row(chart, i, y);
     }
-    const std::vector<Entry> key = keyOf(chart);
+    const std::vector<KeyEntry> key = keyOf(chart);
     chart.head = (key.empty() ? edge : key.back().y + lineHeight / 2) + lineHeight;
     chart.height = chart.head + y + footHeight;
     const std::string script =
-        style + headScript(chart, key) +
+        sharesStyle + headScript(chart, key) +
         fmt::format("set lmargin at screen {:.5f}\nset rmargin at screen {:.5f}\n"
                     "set tmargin at screen {:.5f}\nset bmargin at screen {:.5f}\n"
                     "set yrange [{}:0]\n",

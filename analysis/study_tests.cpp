@@ -11,7 +11,7 @@ namespace obscura {
 
 namespace {
 
-const TestKind kinds[] = {
+const TestKind testKindRows[] = {
     {"cochran", "Does the preference depend on complexity, among the same people?",
      "Cochran's Q, 1950", cochranTests, true},
     {"mcnemar", "Does the preference depend on complexity, among the same people?",
@@ -59,7 +59,7 @@ void correctGroups(std::vector<Tested>& tests) {
 
 } // namespace
 
-std::span<const TestKind> testKinds() { return kinds; }
+std::span<const TestKind> testKinds() { return testKindRows; }
 
 std::vector<Tested> testsOf(const StudyData& data) {
     std::vector<Tested> tests;

@@ -14,16 +14,12 @@ namespace obscura {
 
 namespace {
 
-std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
-
 // With a real minus sign, and no sign for what rounds to zero.
 std::string signedText(double value, int decimals) {
     if (std::abs(value) < 0.5 * std::pow(10.0, -decimals))
         return fmt::format("{:.{}f}", 0.0, decimals);
     return fmt::format("{}{:.{}f}", value < 0 ? "−" : "+", std::abs(value), decimals);
 }
-
-constexpr const char* dash = "–";
 
 double shareOf(Votes votes) {
     return static_cast<double>(votes.b) / static_cast<double>(votes.total());
@@ -142,6 +138,8 @@ std::string alignedLine(const Table& table, const std::vector<std::string>& cell
 } // namespace
 
 std::string pCell(double p) { return p < 0.001 ? "<0.001" : fmt::format("{:.3f}", p); }
+
+std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
 
 Table resultTable(const std::vector<Tally>& tallies) {
     const bool orders = std::any_of(tallies.begin(), tallies.end(), [](const Tally& tally) {

@@ -2,6 +2,7 @@
 
 #include "analysis/findings.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ Table resultTable(const std::vector<Tally>& tallies);
 
 // A p-value as a cell: three decimals, or "<0.001".
 std::string pCell(double p);
+// All of a number's digits, as programs read them; empty where there is none.
+std::string digits(std::optional<double> value);
+// Where people read a table that has no such number.
+inline constexpr const char* dash = "–";
 
 // Tests beyond single conditions.
 Table testTable(const Findings& findings);

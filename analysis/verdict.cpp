@@ -14,8 +14,6 @@ namespace obscura {
 
 namespace {
 
-using Outcome = Verdict::Outcome;
-
 // Of people, whose interval at 95 % asks for more than two one-sided tests at .05 do.
 bool isWithin(const Tally& tally, double margin) {
     if (tally.people)
@@ -26,15 +24,15 @@ bool isWithin(const Tally& tally, double margin) {
 void decide(const Tally& tally, Verdict& verdict) {
     const double margin = tally.margin > 0 ? tally.margin : undeclaredMargin;
     if (!tally.fault.empty()) {
-        verdict.outcome = Outcome::unusable;
+        verdict.outcome = Verdict::Outcome::unusable;
         verdict.why = tally.fault;
     } else if (tally.votes.total() < fewestVotes) {
-        verdict.outcome = Outcome::unusable;
+        verdict.outcome = Verdict::Outcome::unusable;
         verdict.why = "too few votes: even unanimous ones could be chance";
     } else if (verdict.holm < significance) {
-        verdict.outcome = Outcome::differs;
+        verdict.outcome = Verdict::Outcome::differs;
     } else if (isWithin(tally, margin)) {
-        verdict.outcome = Outcome::equivalent;
+        verdict.outcome = Verdict::Outcome::equivalent;
         verdict.margin = margin;
     }
 }
@@ -47,7 +45,7 @@ Tally::People judged(const std::vector<double>& shares) {
 
 } // namespace
 
-std::string_view nameOf(Outcome outcome) {
+std::string_view nameOf(Verdict::Outcome outcome) {
     constexpr std::array<std::string_view, 4> names = {"differs", "equivalent", "undecided",
                                                        "unusable"};
     return names[static_cast<std::size_t>(outcome)];

@@ -90,7 +90,7 @@ std::string_view cutPart(std::string_view& text) {
 }
 
 template <typename T>
-bool readNumber(std::string_view text, T& number) {
+bool readPart(std::string_view text, T& number) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     return error == std::errc() && end == text.data() + text.size();
 }
@@ -108,7 +108,7 @@ std::string ProcessId::text() const {
 
 std::optional<ProcessId> ProcessId::parse(std::string_view text) {
     ProcessId result;
-    if (!readNumber(cutPart(text), result.pid) || !readNumber(cutPart(text), result.start))
+    if (!readPart(cutPart(text), result.pid) || !readPart(cutPart(text), result.start))
         return {};
     result.boot = cutPart(text);
     result.machine = text;

@@ -15,7 +15,7 @@ namespace obscura {
 
 namespace {
 
-const Condition& conditionOf(const Protocol& protocol, int condition) {
+const Condition& conditionAt(const Protocol& protocol, int condition) {
     return protocol.conditions[static_cast<std::size_t>(condition)];
 }
 
@@ -39,7 +39,7 @@ Items itemsOf(const Protocol& protocol, std::span<const int> conditions) {
     std::map<std::tuple<std::string, std::string, std::string>, int> numbers;
     Items items;
     for (const int index : conditions) {
-        const Condition& condition = conditionOf(protocol, index);
+        const Condition& condition = conditionAt(protocol, index);
         const auto numberOf = [&](const std::string& shown) {
             const auto role = std::find_if(condition.roles.begin(), condition.roles.end(),
                                            [&](const Role& one) { return one.name == shown; });
@@ -112,7 +112,7 @@ std::optional<int> questCondition(const Protocol& protocol, std::span<const int>
         const auto level = std::find(ladder.begin(), ladder.end(), one.trial.condition);
         if (!answer.empty())
             quest.answer(static_cast<int>(level - ladder.begin()),
-                         answer == conditionOf(protocol, one.trial.condition).correct);
+                         answer == conditionAt(protocol, one.trial.condition).correct);
     }
     if (isNarrow(adaptive, quest.estimate(QuestParameter::threshold).width()))
         return std::nullopt;

@@ -12,17 +12,15 @@ namespace obscura {
 
 namespace {
 
-using Kind = Question::Kind;
-
 constexpr int sliderSteps = 100;
 constexpr std::size_t longestText = 200; // bytes of UTF-8
 
 bool hasOptions(const Question& question) {
-    return question.kind == Kind::choice || question.kind == Kind::scale;
+    return question.kind == Question::Kind::choice || question.kind == Question::Kind::scale;
 }
 
 bool isTyped(const Question& question) {
-    return question.kind == Kind::number || question.kind == Kind::text;
+    return question.kind == Question::Kind::number || question.kind == Question::Kind::text;
 }
 
 void append(std::string& text, std::uint32_t symbol) { // UTF-8
@@ -64,7 +62,7 @@ Form::Form(const std::vector<Question>& questions, int images, Keys keys)
       alone_(questions.size() == 1 && hasOptions(questions[0])) {}
 
 int Form::optionsOf(const Question& question) const {
-    if (question.kind == Kind::rank)
+    if (question.kind == Question::Kind::rank)
         return images_;
     return hasOptions(question)
                ? static_cast<int>(question.options.size()) + !question.unsure.empty()
@@ -102,11 +100,12 @@ Form::Effect Form::pressed(gl::Key key, double seconds) {
         return move(1);
     if (!alone_ && key == gl::Key::up)
         return move(-1);
-    if (key == gl::Key::backspace && question().kind == Kind::rank && !entry().ranks.empty())
+    if (key == gl::Key::backspace && question().kind == Question::Kind::rank &&
+        !entry().ranks.empty())
         return entry().ranks.pop_back(), Effect::changed;
     if (key == gl::Key::backspace && typing() && !entry().typed.empty())
         return removeLast(entry().typed), entry().seconds = seconds, Effect::changed;
-    if (question().kind == Kind::slider)
+    if (question().kind == Question::Kind::slider)
         return pressSlider(key, seconds);
     if (typing()) // digits arrive as text
         return Effect::none;
@@ -137,7 +136,7 @@ Form::Effect Form::clicked(int target, double share, double seconds) {
         const int own = optionsOf(questions_[i]);
         if (target <= own) {
             focus_ = static_cast<int>(i);
-            if (question().kind == Kind::slider)
+            if (question().kind == Question::Kind::slider)
                 return slide(question().least + share * (question().most - question().least),
                              seconds);
             return typing() ? Effect::changed : choose(target, seconds);
@@ -151,7 +150,7 @@ Form::Effect Form::choose(int option, double seconds) {
     if (option < 1 || option > optionsOf(question()))
         return Effect::none;
     std::vector<int>& ranks = entry().ranks;
-    if (question().kind == Kind::rank) {
+    if (question().kind == Question::Kind::rank) {
         if (std::find(ranks.begin(), ranks.end(), option) != ranks.end())
             return Effect::none;
         ranks.push_back(option);
@@ -188,16 +187,16 @@ bool Form::answered(std::size_t index) const {
     const Entry& given = entries_[index];
     double number = 0;
     switch (asked.kind) {
-    case Kind::choice:
-    case Kind::scale:
+    case Question::Kind::choice:
+    case Question::Kind::scale:
         return given.option > 0;
-    case Kind::slider:
+    case Question::Kind::slider:
         return given.value.has_value();
-    case Kind::rank:
+    case Question::Kind::rank:
         return static_cast<int>(given.ranks.size()) == images_;
-    case Kind::number:
+    case Question::Kind::number:
         return readCell(given.typed, number) && number >= asked.least && number <= asked.most;
-    case Kind::text:
+    case Question::Kind::text:
         break;
     }
     return !given.typed.empty();
@@ -219,18 +218,18 @@ std::string Form::valueOf(std::size_t index) const {
     if (!answered(index))
         return {};
     switch (asked.kind) {
-    case Kind::choice:
+    case Question::Kind::choice:
         return given.option > static_cast<int>(asked.options.size())
                    ? "unsure"
                    : fmt::format("{}", given.option);
-    case Kind::scale:
+    case Question::Kind::scale:
         return fmt::format("{}", asked.lowest + given.option - 1);
-    case Kind::slider:
+    case Question::Kind::slider:
         return fmt::format("{:g}", *given.value);
-    case Kind::rank:
+    case Question::Kind::rank:
         return fmt::format("{}", fmt::join(given.ranks, ">"));
-    case Kind::number:
-    case Kind::text:
+    case Question::Kind::number:
+    case Question::Kind::text:
         break;
     }
     return given.typed;

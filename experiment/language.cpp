@@ -34,15 +34,14 @@ class Choice {
             if (focused_ != display_.window().focused())
                 show();
             for (const gl::Input& input : std::vector(display_.window().wait())) {
-                using Kind = gl::Input::Kind;
-                const bool press = input.kind == Kind::press;
-                if (input.kind == Kind::close || (press && input.key == gl::Key::escape))
+                const bool press = input.kind == gl::Input::Kind::press;
+                if (input.kind == gl::Input::Kind::close || (press && input.key == gl::Key::escape))
                     return std::nullopt;
-                if (const auto chosen = press                       ? pressed(input.key)
-                                        : input.kind == Kind::click ? clicked(input)
-                                                                    : std::nullopt)
+                if (const auto chosen = press                                  ? pressed(input.key)
+                                        : input.kind == gl::Input::Kind::click ? clicked(input)
+                                                                               : std::nullopt)
                     return chosen;
-                if (input.kind == Kind::exposed)
+                if (input.kind == gl::Input::Kind::exposed)
                     show();
             }
         }

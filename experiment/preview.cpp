@@ -17,14 +17,14 @@ namespace obscura {
 
 namespace {
 
-constexpr double refreshHz = 60;
+constexpr double shownHz = 60;
 constexpr int margin = 24, gap = 20, header = 76, caption = 76; // pixels of the sheet
 constexpr int fewestColumns = 3;
 
 std::string timeOf(const Phase& phase) {
-    const int frames = phase.frames > 0 ? phase.frames : maskRefreshes(phase.seconds, refreshHz);
-    return fmt::format("{:.4g} s, {} frame{} at {:g} Hz", frames / refreshHz, frames,
-                       frames == 1 ? "" : "s", refreshHz);
+    const int frames = phase.frames > 0 ? phase.frames : maskRefreshes(phase.seconds, shownHz);
+    return fmt::format("{:.4g} s, {} frame{} at {:g} Hz", frames / shownHz, frames,
+                       frames == 1 ? "" : "s", shownHz);
 }
 
 std::string keyOf(const Phase& phase) {
@@ -149,7 +149,7 @@ std::string endOf(const Phase& phase) {
         return keyOf(phase);
     const std::string turns = phase.alternate > 0
                                   ? fmt::format(", in turns of {:g} s, {} frames", phase.alternate,
-                                                maskRefreshes(phase.alternate, refreshHz))
+                                                maskRefreshes(phase.alternate, shownHz))
                                   : "";
     return timeOf(phase) + turns + (phase.locked() ? ", locked" : "; or " + keyOf(phase));
 }

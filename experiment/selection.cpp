@@ -15,8 +15,6 @@ namespace obscura {
 
 namespace {
 
-using Kind = PlannedTrial::Kind;
-
 const Condition& conditionOf(const Protocol& protocol, int condition) {
     return protocol.conditions[static_cast<std::size_t>(condition)];
 }
@@ -119,7 +117,7 @@ std::vector<PlannedTrial> blockTrials(const Protocol& protocol, const std::vecto
                                            ? shuffle.pass()
                                            : rowOf(protocol, conditions, place, repeat);
         for (const int condition : order) {
-            PlannedTrial trial{Kind::main, condition, {}, repeat};
+            PlannedTrial trial{PlannedTrial::Kind::main, condition, {}, repeat};
             const auto index = std::find(conditions.begin(), conditions.end(), condition);
             trial.roles = rolesOf(protocol, ordering.scheme == OrderScheme::thesis
                                                 ? place.exchange
@@ -154,20 +152,21 @@ std::vector<PlannedTrial> mainTrials(const Protocol& protocol, int slot) {
     return trials;
 }
 
-int countOf(std::span<const PastTrial> history, Kind kind) {
+int countOf(std::span<const PastTrial> history, PlannedTrial::Kind kind) {
     return static_cast<int>(
         std::count_if(history.begin(), history.end(),
                       [kind](const PastTrial& past) { return past.trial.kind == kind; }));
 }
 
 // A trial that is in no square.
-PlannedTrial beside(const Protocol& protocol, const std::string& id, Kind kind, int exchange) {
+PlannedTrial beside(const Protocol& protocol, const std::string& id, PlannedTrial::Kind kind,
+                    int exchange) {
     return {kind, numberOf(protocol, id), rolesOf(protocol, exchange)};
 }
 
 // In the order listed; roles change from trial to trial and from slot to slot.
 PlannedTrial practiceTrial(const Protocol& protocol, int slot, std::size_t index) {
-    return beside(protocol, protocol.ordering.practice[index], Kind::practice,
+    return beside(protocol, protocol.ordering.practice[index], PlannedTrial::Kind::practice,
                   slot - 1 + static_cast<int>(index));
 }
 
@@ -179,7 +178,7 @@ PlannedTrial catchTrial(const Protocol& protocol, int slot, int index) {
     const auto [first, exchange] = crossed(slot - 1, count, exchangeCount(protocol));
     const int entry = (first + index) % count;
     PlannedTrial trial = beside(protocol, catches[static_cast<std::size_t>(entry)],
-                                Kind::catchTrial, exchange + entry + index / count);
+                                PlannedTrial::Kind::catchTrial, exchange + entry + index / count);
     trial.repeat = index / count + 1;
     return trial;
 }
@@ -218,7 +217,7 @@ std::optional<PlannedTrial> adaptiveTrial(const Protocol& protocol, int slot,
                                           std::span<const PastTrial> history) {
     std::vector<PastTrial> past;
     std::copy_if(history.begin(), history.end(), std::back_inserter(past),
-                 [](const PastTrial& one) { return one.trial.kind == Kind::main; });
+                 [](const PastTrial& one) { return one.trial.kind == PlannedTrial::Kind::main; });
     const auto condition = nextCondition(protocol, slot, past);
     if (!condition)
         return std::nullopt;
@@ -229,7 +228,8 @@ std::optional<PlannedTrial> adaptiveTrial(const Protocol& protocol, int slot,
     Random random(protocol.seed,
                   fmt::format("order/slots {} trial {}", (slot - 1) / exchanges, past.size()));
     const int drawn = static_cast<int>(random.below(static_cast<std::uint32_t>(exchanges)));
-    return PlannedTrial{Kind::main, *condition, rolesOf(protocol, drawn + slot - 1), repeat};
+    return PlannedTrial{PlannedTrial::Kind::main, *condition, rolesOf(protocol, drawn + slot - 1),
+                        repeat};
 }
 
 // Whether something that comes after every `every` main trials comes after this many.
@@ -242,15 +242,15 @@ std::optional<PlannedTrial> withOthers(const Protocol& protocol, int slot,
     const Ordering& ordering = protocol.ordering;
     if (history.size() < ordering.practice.size())
         return practiceTrial(protocol, slot, history.size());
-    const int mainTrials = countOf(history, Kind::main);
+    const int mainTrials = countOf(history, PlannedTrial::Kind::main);
     if (!main || mainTrials == 0)
         return main;
     const PlannedTrial& last = history.back().trial;
     std::optional<PlannedTrial> other;
-    if (isDue(mainTrials, ordering.catchEvery) && last.kind == Kind::main)
-        other = catchTrial(protocol, slot, countOf(history, Kind::catchTrial));
-    else if (isDue(mainTrials, ordering.breakEvery) && last.kind != Kind::rest)
-        other = PlannedTrial{Kind::rest};
+    if (isDue(mainTrials, ordering.catchEvery) && last.kind == PlannedTrial::Kind::main)
+        other = catchTrial(protocol, slot, countOf(history, PlannedTrial::Kind::catchTrial));
+    else if (isDue(mainTrials, ordering.breakEvery) && last.kind != PlannedTrial::Kind::rest)
+        other = PlannedTrial{PlannedTrial::Kind::rest};
     if (!other)
         return main;
     other->block = last.block;
@@ -264,15 +264,15 @@ std::optional<PlannedTrial> atOf(const std::vector<PlannedTrial>& trials, int in
 
 } // namespace
 
-std::string_view nameOf(Kind kind) {
+std::string_view nameOf(PlannedTrial::Kind kind) {
     switch (kind) {
-    case Kind::practice:
+    case PlannedTrial::Kind::practice:
         return "practice";
-    case Kind::main:
+    case PlannedTrial::Kind::main:
         return "main";
-    case Kind::catchTrial:
+    case PlannedTrial::Kind::catchTrial:
         return "catch";
-    case Kind::rest:
+    case PlannedTrial::Kind::rest:
         break;
     }
     return "break";
@@ -281,9 +281,10 @@ std::string_view nameOf(Kind kind) {
 std::optional<PlannedTrial> next(const Protocol& protocol, int slot,
                                  std::span<const PastTrial> history) {
     const bool adaptive = adaptiveTrials(protocol.ordering) > 0;
-    return withOthers(protocol, slot, history,
-                      adaptive ? adaptiveTrial(protocol, slot, history)
-                               : atOf(mainTrials(protocol, slot), countOf(history, Kind::main)));
+    return withOthers(
+        protocol, slot, history,
+        adaptive ? adaptiveTrial(protocol, slot, history)
+                 : atOf(mainTrials(protocol, slot), countOf(history, PlannedTrial::Kind::main)));
 }
 
 std::vector<PlannedTrial> planned(const Protocol& protocol, int slot) {
@@ -292,8 +293,8 @@ std::vector<PlannedTrial> planned(const Protocol& protocol, int slot) {
         return result;
     const auto main = mainTrials(protocol, slot);
     std::vector<PastTrial> history;
-    while (const auto trial =
-               withOthers(protocol, slot, history, atOf(main, countOf(history, Kind::main)))) {
+    while (const auto trial = withOthers(protocol, slot, history,
+                                         atOf(main, countOf(history, PlannedTrial::Kind::main)))) {
         result.push_back(*trial);
         history.push_back({*trial, {}, false});
     }

@@ -11,7 +11,7 @@ namespace obscura {
 
 namespace {
 
-constexpr double refreshHz = 60;
+constexpr double simulatedHz = 60;
 constexpr double quickest = 0.15; // seconds; nobody sees and reacts faster
 constexpr double keyDown = 0.08;  // seconds for which a key is held
 
@@ -162,12 +162,12 @@ double SimulatedParticipant::draw(const ExGaussian& time) {
 }
 
 Refresh SimulatedObserver::refresh() const {
-    return {refreshHz, "none", "simulated: a clock without a display"};
+    return {simulatedHz, "none", "simulated: a clock without a display"};
 }
 
 double SimulatedObserver::show(const TrialMachine& trial) {
     trial_ = &trial;
-    clock_ = (std::floor(clock_ * refreshHz + 1e-6) + 1) / refreshHz;
+    clock_ = (std::floor(clock_ * simulatedHz + 1e-6) + 1) / simulatedHz;
     participant_.sees(trial, clock_);
     return clock_;
 }

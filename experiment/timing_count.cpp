@@ -11,7 +11,7 @@ namespace {
 constexpr double missedInterval = 1.2;
 
 // A stamp is late rather than early. That of the onset may be late as well, by less than this.
-constexpr double tolerance = 0.25; // refreshes
+constexpr double clockError = 0.25; // refreshes
 
 } // namespace
 
@@ -24,7 +24,7 @@ void RefreshCount::restart() {
 void RefreshCount::add(double time) {
     const double before = behind_;
     note(time);
-    const double sure = std::floor(std::min(before, behind_) + tolerance);
+    const double sure = std::floor(std::min(before, behind_) + clockError);
     passed_ = static_cast<int>(std::max(0.0, sure));
     ++swaps_;
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr double watched = 0.001; // seconds before a tick
 
 // Who is later than this has missed the tick.
-constexpr double tolerance = 0.125; // of the time between ticks
+constexpr double soonest = 0.125; // of the time between ticks
 
 } // namespace
 
@@ -30,7 +30,7 @@ std::int64_t Ticks::await() const {
         std::this_thread::sleep_for(std::chrono::duration<double>(time - watched - now()));
         while (now() < time)
             ;
-        if ((now() - time) * hz_ <= tolerance)
+        if ((now() - time) * hz_ <= soonest)
             return tick;
     }
 }

@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-constexpr double tolerance = 0.05; // of an angle that a study wants
+constexpr double angleTolerance = 0.05; // of an angle that a study wants
 constexpr double square = 0.03;
 constexpr double degree = 3.14159265358979323846 / 180;
 
@@ -28,7 +28,7 @@ double centimetres(const Viewing& viewing, double pixels) {
 std::string objectionToDegrees(const Viewing& viewing, int pixels, double wanted,
                                const char* across) {
     const double found = viewing.degrees(pixels);
-    if (std::abs(found - wanted) <= tolerance * wanted)
+    if (std::abs(found - wanted) <= angleTolerance * wanted)
         return {};
     const double distance = centimetres(viewing, pixels / 2.0 / std::tan(wanted * degree / 2));
     return fmt::format("expected images {:.4g} degrees {}, found {:.4g} at {:.4g} cm; at {:.4g} cm "

@@ -23,7 +23,7 @@ struct Destroy {
 template <typename T>
 using Held = std::unique_ptr<T, Destroy>;
 
-constexpr int mostPixels = 32767; // across or down, of a Cairo surface
+constexpr int largestSurface = 32767; // across or down, of a Cairo surface
 constexpr int tallestPage = 16000;
 
 void check(cairo_status_t status, int width, int height) {
@@ -40,9 +40,9 @@ struct Canvas::Owned {
 };
 
 Canvas::Canvas(int width, int height, double grey) {
-    if (std::min(width, height) < 1 || std::max(width, height) > mostPixels)
+    if (std::min(width, height) < 1 || std::max(width, height) > largestSurface)
         throw Error(fmt::format("expected a page of 1 to {} pixels across and down, found {} x {}",
-                                mostPixels, width, height));
+                                largestSurface, width, height));
     Held<cairo_surface_t> surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height));
     check(cairo_surface_status(surface.get()), width, height);
     Held<cairo_t> cairo(cairo_create(surface.get()));

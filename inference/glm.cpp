@@ -21,7 +21,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // What one evaluation at given coefficients yields.
-struct Point {
+struct FitPoint {
     double value = 0;     // log-likelihood (plus log prior) without binomial coefficients
     VectorXd gradient;    // of `value`
     VectorXd working;     // weights of the rows: expected information
@@ -39,10 +39,10 @@ class Fitter {
         return eta;
     }
 
-    Point at(const VectorXd& coefficients) const {
+    FitPoint at(const VectorXd& coefficients) const {
         const VectorXd eta = predictor(coefficients);
         VectorXd slopes(eta.size());
-        Point point{.gradient = {}, .working = VectorXd(eta.size()), .information = {}};
+        FitPoint point{.gradient = {}, .working = VectorXd(eta.size()), .information = {}};
         for (Index i = 0; i < eta.size(); ++i) {
             const Evidence row =
                 evidence(options_.link, eta[i], data_.successes[i], data_.trials[i]);
@@ -87,11 +87,11 @@ class Fitter {
 
 // The largest part of the step that does not lower the likelihood. Expected information makes the
 // full step an ascent direction; it is too long only far from the maximum.
-double climb(const Fitter& fitter, VectorXd& coefficients, Point& point, const VectorXd& step) {
+double climb(const Fitter& fitter, VectorXd& coefficients, FitPoint& point, const VectorXd& step) {
     const double slack = 1e-12 * (1 + std::abs(point.value));
     for (int halvings = 0; halvings < 20; ++halvings) {
         const VectorXd next = coefficients + std::ldexp(1.0, -halvings) * step;
-        Point there = fitter.at(next);
+        FitPoint there = fitter.at(next);
         if (there.value >= point.value - slack) {
             const double gain = there.value - point.value;
             coefficients = next;
@@ -102,7 +102,7 @@ double climb(const Fitter& fitter, VectorXd& coefficients, Point& point, const V
     return 0;
 }
 
-void iterate(const Fitter& fitter, const BinomialData& data, GlmFit& fit, Point& point) {
+void iterate(const Fitter& fitter, const BinomialData& data, GlmFit& fit, FitPoint& point) {
     for (fit.iterations = 1; fit.iterations <= 100; ++fit.iterations) {
         const VectorXd step = point.information.ldlt().solve(point.gradient);
         if (!step.allFinite())
@@ -207,7 +207,7 @@ GlmFit fitGlm(const BinomialData& data, const GlmOptions& options) {
         requireFullRank(usedRows(data));
 
     GlmFit fit{.coefficients = VectorXd::Zero(columns), .covariance = {}};
-    Point point = fitter.at(fit.coefficients);
+    FitPoint point = fitter.at(fit.coefficients);
     iterate(fitter, data, fit, point);
 
     fit.covariance = symmetricInverse(point.information);

@@ -28,7 +28,7 @@ using Outcome = Jet<2>;
 struct Outcomes {
     Outcome first, second, tie;
 };
-using Model = std::function<Outcomes(const Outcome& difference, const Outcome& tie)>;
+using TieModel = std::function<Outcomes(const Outcome& difference, const Outcome& tie)>;
 
 Outcomes davidsonOutcomes(const Outcome& difference, const Outcome& logNu) {
     const Outcome half = 0.5 * difference;
@@ -53,7 +53,7 @@ Outcomes thresholdOutcomes(Link link, const Outcome& difference, const Outcome& 
             logProbability(link, -difference - threshold), upper + log1mExp(lower - upper)};
 }
 
-CurvedObjective tieObjective(const Wins& wins, const Eigen::MatrixXd& ties, const Model& model) {
+CurvedObjective tieObjective(const Wins& wins, const Eigen::MatrixXd& ties, const TieModel& model) {
     return [&](const Eigen::VectorXd& x, Eigen::VectorXd& gradient, Eigen::MatrixXd& hessian) {
         const auto items = static_cast<int>(wins.rows());
         const Predictor tie = {{items, 1}};
@@ -115,7 +115,7 @@ std::optional<TieScale> withoutTies(std::optional<Scale> scale, const Wins& wins
 
 // `parameter` is the logarithm of what is reported: its standard error is relative.
 std::optional<TieScale> tieScale(const Wins& wins, const Eigen::MatrixXd& ties,
-                                 const Model& model) {
+                                 const TieModel& model) {
     if (connection(wins + ties).tiers.size() > 1 || wins.isZero())
         return std::nullopt;
     const auto items = wins.rows();

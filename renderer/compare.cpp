@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CompareOptions {
     fs::path test, reference, maps;
     std::vector<std::string> display;
     bool json = false;
@@ -117,7 +117,7 @@ void writeMaps(const fs::path& folder, const Measures& measures, const Display& 
          "1: all 10 JOD lost there");
 }
 
-int runCompare(const Options& options) {
+int runCompare(const CompareOptions& options) {
     const Display display = displayOf(options.display);
     const Image8 test = pictureOf(options.test), reference = pictureOf(options.reference);
     if (test.width != reference.width || test.height != reference.height)
@@ -163,7 +163,7 @@ int runCompare(const Options& options) {
 } // namespace
 
 std::function<int()> addCompare(CLI::App& app) {
-    const auto options = std::make_shared<Options>();
+    const auto options = std::make_shared<CompareOptions>();
     CLI::App* command = app.add_subcommand(
         "compare", "how far apart two pictures are: RMSE, SSIM, FLIP and predicted JOD");
     command->add_option("test", options->test, "picture; EXR, HDR and PFM are linear light")

@@ -12,7 +12,7 @@ namespace {
 
 using Triangles = std::vector<std::uint32_t>;
 
-constexpr int points = 4096;
+constexpr int pointsOfSurfaces = 4096;
 constexpr double areaTail = 0.005;   // of the area, beyond each face of the box around most of it
 constexpr double detailTail = 0.025; // and of the triangles
 constexpr double small = 1.0 / 3;    // part of the scene's size
@@ -58,7 +58,7 @@ Triangles withArea(const Scene& scene) {
 
 // The box that all but the tails of area or triangles lie in.
 Bounds coreOf(const Scene& scene, const Triangles& triangles, Spread spread, double tail) {
-    const std::vector<SurfacePoint> all = surfacePoints(scene, triangles, points, spread);
+    const std::vector<SurfacePoint> all = surfacePoints(scene, triangles, pointsOfSurfaces, spread);
     const auto out = static_cast<std::ptrdiff_t>(tail * static_cast<double>(all.size()));
     Bounds core;
     for (int axis = 0; axis < 3; ++axis) {

@@ -4,6 +4,7 @@
 #include "base/percentile.h"
 #include "base/random.h"
 #include "renderer/extent.h"
+#include "renderer/frame/vec3.h"
 #include "renderer/reference/sight.h"
 
 #include <fmt/format.h>
@@ -16,15 +17,13 @@ namespace obscura {
 
 namespace {
 
-constexpr int width = 48, height = 27, candidatesPerCamera = 16;
+constexpr int glimpseWidth = 48, glimpseHeight = 27, candidatesPerCamera = 16;
 constexpr int raysToFind = 8, raysToMeasure = 16; // of a pixel
 constexpr double fovDegrees = 55;
-constexpr double share = 1.0 / 16;            // of the picture's height
+constexpr double leastShare = 1.0 / 16;       // of the picture's height
 constexpr double hardly = 0.05, mostly = 0.5; // occluded, on average
-constexpr double most = 4;                    // times the share, in doubling
+constexpr double most = 4;                    // times that share, in doubling
 constexpr int mostSteps = 4;
-
-Vec3 arrayOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
 
 Camera within(const Bounds& bounds, Random& random) {
     const glm::dvec3 low(bounds.low), size = glm::dvec3(bounds.high) - low;
@@ -81,7 +80,7 @@ struct Sum {
 // Higher is better; below 0 the view is of no use. A good view shows much surface, none of it
 // against the lens, and occlusion that varies, because that is what a technique can get wrong.
 double interest(const Sight& sight, const RayTracer& tracer, const Camera& camera, double radius) {
-    const Surfaces surfaces = sight.surfaces(camera, width, height);
+    const Surfaces surfaces = sight.surfaces(camera, glimpseWidth, glimpseHeight);
     std::vector<double> depths = depthsOf(surfaces);
     const double shown =
         static_cast<double>(depths.size()) / static_cast<double>(surfaces.depth.size());
@@ -183,14 +182,14 @@ SuggestedRadius suggestedRadius(const Sight& sight, const RayTracer& tracer,
     std::vector<Surfaces> seen;
     std::vector<double> depths;
     for (const Camera& camera : cameras) {
-        seen.push_back(sight.surfaces(camera, width, height));
+        seen.push_back(sight.surfaces(camera, glimpseWidth, glimpseHeight));
         const std::vector<double> more = depthsOf(seen.back());
         depths.insert(depths.end(), more.begin(), more.end());
     }
     const double depth = percentile(std::move(depths), 0.5),
                  high =
                      2 * depth * std::tan(cameras.front().fovDegrees / 2 * std::numbers::pi / 180);
-    const double wanted = std::clamp(roundRadius(share * high), lowestRadius, highestRadius);
+    const double wanted = std::clamp(roundRadius(leastShare * high), lowestRadius, highestRadius);
     double radius = wanted, occlusion = meanOcclusion(seen, tracer, radius);
     for (int step = 0; step < mostSteps && (occlusion < hardly || occlusion > mostly); ++step) {
         const double next = radius * (occlusion < hardly ? 2 : 0.5);

@@ -30,8 +30,6 @@ constexpr double eyeHeight = 1.6;      // metres
 constexpr double elbowRoom = 0.05;     // of the scene's size, where one would rather stand
 constexpr double roomOfThings = 12;    // sizes of what stands in it, to be more than a backdrop
 
-Vec3 arrayOf(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 glm::dvec3 middleOf(const Bounds& bounds) {
     return 0.5 * (glm::dvec3(bounds.low) + glm::dvec3(bounds.high));
 }

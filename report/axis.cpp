@@ -10,8 +10,8 @@ namespace obscura {
 
 namespace {
 
-constexpr double room = 1.15; // beyond the outermost values of a logarithmic axis
-constexpr double step = 1e-9; // what rounding may do to a tick at the very end
+constexpr double beyond = 1.15; // beyond the outermost values of a logarithmic axis
+constexpr double step = 1e-9;   // what rounding may do to a tick at the very end
 
 // At most this many decades have their 2 and 5 (and, fewer, all nine) labelled.
 constexpr double allLabelled = 0.7, twoAndFive = 3.5;
@@ -52,7 +52,7 @@ Axis logarithmicAxis(std::span<const double> values) {
         }
     if (high == 0)
         low = high = 1;
-    Axis axis{low / room, high * room, true, {}};
+    Axis axis{low / beyond, high * beyond, true, {}};
     axis.ticks = logarithmicTicks(axis.low, axis.high);
     return axis;
 }

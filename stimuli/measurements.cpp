@@ -145,7 +145,8 @@ Measurements::Reference Measurements::shared(const Recipe& recipe) {
     if (own)
         return *own;
     const auto hashes = nlohmann::json::parse(text).get<std::array<std::string, 2>>();
-    if (intact(folder_, {image, hashes[0]}) && intact(folder_, {visibility, hashes[1]}))
+    if (intact(folder_, FileRecord{image, hashes[0]}) &&
+        intact(folder_, FileRecord{visibility, hashes[1]}))
         return {readImage8(folder_ / image, 3), readImage8(folder_ / visibility, 1), {}};
     render();
     return *own;

@@ -19,10 +19,6 @@ constexpr auto longestPause = std::chrono::milliseconds(100);
 
 struct Overtaken {}; // thrown where a wish is given up for a newer one
 
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 } // namespace
 
 // Other threads say that they have something.

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "renderer/render.h"
+#include "viewer/seconds.h"
 
 #include <fmt/format.h>
 
@@ -24,10 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Of the file and those that it names; 0 where nothing can be read, of which the reader tells.
 double bytesOf(const fs::path& file) {

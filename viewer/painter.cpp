@@ -4,6 +4,7 @@
 #include "protocols/reader/manifest.h"
 #include "renderer/reference/traced.h"
 #include "viewer/painter_state.h"
+#include "viewer/seconds.h"
 
 #include <fmt/format.h>
 
@@ -47,11 +48,6 @@ void check(const Wanted& wanted, SceneId scene) {
         throw Error(fmt::format("expected pictures of one pixel or more and a scale above 0, found "
                                 "{} x {} and {}",
                                 wanted.width, wanted.height, wanted.errorScale));
-}
-
-double millisecondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
-        .count();
 }
 
 } // namespace
@@ -313,7 +309,7 @@ Drawn Painter::draw(const Wanted& wanted, const Progress& progress, bool draft) 
     s.older.clear();
     gl::finish();
     gl::throwMessages();
-    drawn.frameMs = millisecondsSince(start);
+    drawn.frameMs = 1000 * secondsSince(start);
     return drawn;
 }
 

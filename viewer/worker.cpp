@@ -23,10 +23,6 @@ bool hasRays(const Drawn& drawn, int rays) {
     });
 }
 
-double secondsSince(std::chrono::steady_clock::time_point start) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
 } // namespace
 
 Worker::Worker(MakeContext makeContext, Notify notify, bool copies)

@@ -2,6 +2,7 @@
 
 #include "viewer/loader.h"
 #include "viewer/painter.h"
+#include "viewer/seconds.h"
 #include "viewer/status.h"
 #include "viewer/tracer.h"
 

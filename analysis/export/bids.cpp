@@ -43,9 +43,9 @@ ordered_json sidecar(const ExportTable& table) {
 }
 
 // Columns of one long table by name.
-class Cells {
+class CellsOfRow {
   public:
-    explicit Cells(const ExportTable& table) {
+    explicit CellsOfRow(const ExportTable& table) {
         for (std::size_t i = 0; i < table.columns.size(); ++i)
             index_[table.columns[i].name] = i;
     }
@@ -58,7 +58,7 @@ class Cells {
     std::map<std::string, std::size_t> index_;
 };
 
-std::string seconds(double milliseconds) { return fmt::format("{:.6f}", milliseconds / 1000); }
+std::string bidsSeconds(double milliseconds) { return fmt::format("{:.6f}", milliseconds / 1000); }
 
 bool isOfTheFile(const std::string& column) { // the same in all of a file's lines, or in seconds
     const std::set<std::string> names = {
@@ -107,13 +107,14 @@ class Events {
     }
 
     void addPhases() {
-        const Cells cells(phases_);
+        const CellsOfRow cells(phases_);
         for (std::size_t i = 0; i < phases_.rows.size(); ++i) {
             const PhaseRow& row = session_.phases[i].row;
             const std::vector<std::string> files = split(row.files, '+');
-            const auto event = [&](const char* type, const std::string& file, const Cells& of) {
-                std::vector<std::string> begin = {seconds(row.onsetMs), seconds(row.viewMs), type,
-                                                  ""};
+            const auto event = [&](const char* type, const std::string& file,
+                                   const CellsOfRow& of) {
+                std::vector<std::string> begin = {bidsSeconds(row.onsetMs), bidsSeconds(row.viewMs),
+                                                  type, ""};
                 if (withStimuli_)
                     begin.push_back(file);
                 add(row.onsetMs, std::move(begin), of, phases_.rows[i]);
@@ -129,19 +130,19 @@ class Events {
         std::map<std::pair<int, std::string>, double> onsets;
         for (const auto& [row, place] : session_.phases)
             onsets[{row.trial.trialIndex, row.phase}] = row.onsetMs;
-        const Cells cells(answers_);
+        const CellsOfRow cells(answers_);
         for (std::size_t i = 0; i < answers_.rows.size(); ++i) {
             const AnswerRow& row = session_.answers[i].row;
             const double onset = onsets.at({row.trial.trialIndex, row.phase}) + row.responseMs;
-            std::vector<std::string> begin = {seconds(onset), seconds(0), "answer",
-                                              seconds(row.responseMs)};
+            std::vector<std::string> begin = {bidsSeconds(onset), bidsSeconds(0), "answer",
+                                              bidsSeconds(row.responseMs)};
             if (withStimuli_)
                 begin.emplace_back();
             add(onset, std::move(begin), cells, answers_.rows[i]);
         }
     }
 
-    void add(double onset, std::vector<std::string> row, const Cells& cells,
+    void add(double onset, std::vector<std::string> row, const CellsOfRow& cells,
              const std::vector<std::string>& from) {
         for (std::size_t i = row.size(); i < table_.columns.size(); ++i)
             row.push_back(cells.of(from, table_.columns[i].name));
@@ -205,7 +206,7 @@ ordered_json textsOf(const ordered_json& value) {
 }
 
 // Authors and licence are those that users have added to their study's description.
-ordered_json descriptionOf(const RecordedStudy& data) {
+ordered_json bidsDescription(const RecordedStudy& data) {
     const ordered_json own =
         data.description.empty() ? ordered_json::object() : ordered_json::parse(data.description);
     const bool simulated = std::any_of(data.sessions.begin(), data.sessions.end(),
@@ -240,7 +241,7 @@ class Bids {
                                 [](const auto& s) { return !s.rows.empty(); })) {}
 
     NewFiles files() {
-        files_["dataset_description.json"] = {descriptionOf(data_).dump(2) + "\n"};
+        files_["dataset_description.json"] = {bidsDescription(data_).dump(2) + "\n"};
         files_["README.md"] = {readme(data_)};
         for (const SessionData& session : data_.sessions)
             add(session);

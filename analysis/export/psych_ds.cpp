@@ -54,7 +54,7 @@ class Variables {
 };
 
 // What users have added to their study's description is theirs to keep.
-ordered_json descriptionOf(const RecordedStudy& data) {
+ordered_json psychDsDescription(const RecordedStudy& data) {
     ordered_json json = {
         {"@context", "https://schema.org/"},
         {"@type", "Dataset"},
@@ -83,7 +83,7 @@ NewFiles psychDsFiles(const RecordedStudy& data) {
         add("_description-phases", tableOf(session.phases));
         add("_description-answers", tableOf(session.answers));
     }
-    ordered_json description = descriptionOf(data);
+    ordered_json description = psychDsDescription(data);
     description["variableMeasured"] = variables.json();
     files["dataset_description.json"] = {description.dump(2) + "\n"};
     files["README.md"] = {readme(data.study)};

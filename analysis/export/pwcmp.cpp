@@ -26,9 +26,9 @@ std::set<std::string> questionsOfImages(const RecordedStudy& data) {
     return names;
 }
 
-class Comparisons {
+class PwcmpComparisons {
   public:
-    explicit Comparisons(const RecordedStudy& data) : questions_(questionsOfImages(data)) {
+    explicit PwcmpComparisons(const RecordedStudy& data) : questions_(questionsOfImages(data)) {
         for (const SessionData& session : data.sessions) {
             for (const auto& [row, place] : session.answers)
                 add(row, place);
@@ -121,7 +121,7 @@ std::string readme(const RecordedStudy& data, bool ties) {
 } // namespace
 
 NewFiles pwcmpFiles(const RecordedStudy& data, std::vector<std::string>& remarks) {
-    const Comparisons comparisons(data);
+    const PwcmpComparisons comparisons(data);
     if (comparisons.others() > 0)
         remarks.push_back(fmt::format("{} answer(s) are no choice between two techniques (ranks, "
                                       "more than two images, one technique twice) and were left "

@@ -27,7 +27,7 @@ bool isId(const std::string& id) {
            std::all_of(id.begin(), id.end(), isAlphanumeric);
 }
 
-std::string folded(std::string text) {
+std::string inLowerCase(std::string text) {
     for (char& c : text)
         if (c >= 'A' && c <= 'Z')
             c = static_cast<char>(c - 'A' + 'a');
@@ -178,7 +178,7 @@ class Reader {
         for (const SessionData& session : data_.sessions)
             for (const std::string& id :
                  {session.participant, session.participant + "-" + session.session}) {
-                const auto [first, isNew] = seen.try_emplace(folded(id), id);
+                const auto [first, isNew] = seen.try_emplace(inLowerCase(id), id);
                 if (first->second != id)
                     throw Error(
                         {folder_.string(), 0, 0, "participant_id"},

@@ -29,7 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-using golden::listOf;
 using golden::none;
 using golden::spelt;
 using golden::valueOf;
@@ -186,13 +185,13 @@ class Trials {
 
     void addModels(Values& values) const {
         const GlmFit glm = fitGlm(data(true));
-        values["trials.glm_coef"] = listOf(glm.coefficients);
+        values["trials.glm_coef"] = golden::listOf(glm.coefficients);
         values["trials.glm_loglik"] = {glm.logLikelihood};
         std::vector<int> people;
         for (const Row& row : rows_)
             people.push_back(row.person);
         const MixedFit mixed = fitMixed(data(false), people);
-        values["trials.glmm15_coef"] = listOf(mixed.coefficients);
+        values["trials.glmm15_coef"] = golden::listOf(mixed.coefficients);
         values["trials.glmm15_sd"] = {mixed.sd};
         values["trials.glmm15_loglik"] = {mixed.logLikelihood};
     }

@@ -175,13 +175,13 @@ std::string chartScript(const PricedScale& scale, const PriceAxes& axes, std::si
 }
 
 // Entries of the key side by side, as far as there is room; inches from the left and the top.
-struct Entry {
+struct KeyLine {
     std::string text, mark;
     double x = 0, y = 0;
 };
 constexpr double entryHeight = 0.19;
 
-std::vector<Entry> keyOf(const std::vector<const PricedScale*>& scales, double width) {
+std::vector<KeyLine> keyOf(const std::vector<const PricedScale*>& scales, double width) {
     const auto any = [&](const auto& holds) {
         return std::any_of(scales.begin(), scales.end(), holds);
     };
@@ -189,7 +189,7 @@ std::vector<Entry> keyOf(const std::vector<const PricedScale*>& scales, double w
         return format("point pointtype {} pointsize {} linewidth 1.5 linecolor rgb '{}'", type,
                       size, colour);
     };
-    std::vector<Entry> entries = {{"people, 95 % interval", mark(7, 0.75, peopleColour)}};
+    std::vector<KeyLine> entries = {{"people, 95 % interval", mark(7, 0.75, peopleColour)}};
     if (any([](const PricedScale* one) {
             return std::any_of(one->techniques.begin(), one->techniques.end(),
                                [](const Priced& priced) { return priced.predicted.has_value(); });
@@ -203,7 +203,7 @@ std::vector<Entry> keyOf(const std::vector<const PricedScale*>& scales, double w
         }))
         entries.push_back({"┊ nothing dearer is shown to be better", "textcolor rgb '#2E5723'"});
     double x = 0.1, y = 0.13;
-    for (Entry& entry : entries) {
+    for (KeyLine& entry : entries) {
         const double across = widthOf(entry.text) * 8 / 7 + 0.42;
         if (x > 0.1 && x + across > width) {
             x = 0.1;
@@ -216,9 +216,9 @@ std::vector<Entry> keyOf(const std::vector<const PricedScale*>& scales, double w
     return entries;
 }
 
-std::string keyScript(const std::vector<Entry>& key, double width, double height) {
+std::string keyScript(const std::vector<KeyLine>& key, double width, double height) {
     std::string script;
-    for (const Entry& entry : key)
+    for (const KeyLine& entry : key)
         script +=
             format("set label {} at screen {:.5f}, screen {:.5f} offset char 1.2, 0 {}\n",
                    gnuplotText(entry.text), entry.x / width, 1 - entry.y / height, entry.mark);
@@ -234,7 +234,7 @@ Figure priceChart(const Findings& findings, const std::vector<const PricedScale*
     const std::size_t rows = (scales.size() + layout.columns - 1) / layout.columns;
     const bool hasTitles = scales.size() > 1 || !scales.front()->group.isPooled();
     const double above = hasTitles ? title : 0.06;
-    const std::vector<Entry> key = keyOf(scales, layout.width);
+    const std::vector<KeyLine> key = keyOf(scales, layout.width);
     const double head = key.back().y + entryHeight;
     const double height = head + static_cast<double>(rows) * (above + layout.plotHeight + below);
     const PriceAxes axes(scales, plotWidth, layout.plotHeight, 0.24);

@@ -13,7 +13,7 @@ namespace {
 
 using fmt::format;
 
-constexpr std::size_t mostPanels = 12;
+constexpr std::size_t mostCharts = 12;
 
 std::string captionOf(const PricedScale& scale, const Manifest& stimuli) {
     std::string text = format(
@@ -60,8 +60,8 @@ std::vector<StudyFigure> priceFigures(const Findings& findings) {
     for (const PricedScale& scale : scales)
         if (scale.hasPrices())
             (scale.group.isPooled() ? pooled : single).push_back(&scale);
-    if (single.size() > mostPanels)
-        single.resize(mostPanels);
+    if (single.size() > mostCharts)
+        single.resize(mostCharts);
     if (!pooled.empty())
         figures.push_back(figureOf(findings, {pooled.front()}, "prices",
                                    "What milliseconds buy, over all scenes and levels"));

@@ -2,6 +2,7 @@
 
 #include "analysis/prices/price_words.h"
 #include "analysis/scales/scale_words.h"
+#include "analysis/table.h"
 #include "base/csv.h"
 
 #include <fmt/format.h>
@@ -11,10 +12,6 @@
 namespace obscura {
 
 namespace {
-
-constexpr const char* dash = "–";
-
-std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
 
 // What people were shown to see of all that costs more.
 std::string dearer(const PricedScale& scale, std::size_t technique) {

@@ -15,7 +15,7 @@ namespace obscura {
 namespace {
 
 // Beyond these, people are not told apart: resampling them would take longer than all the rest.
-constexpr std::size_t mostVotes = 200000;
+constexpr std::size_t mostResampled = 200000;
 constexpr std::size_t mostPeople = 2000;
 constexpr std::size_t mostCells = 200000; // of all people's tables of wins in a group
 
@@ -99,11 +99,11 @@ Comparisons comparisonsOf(const ScaleGroup& group, const Members& members,
         result.wins(a, b) += static_cast<double>(tally->votes.a);
         places[Symbol(tally->condition).number()] = {b, a};
     }
-    if (answers && answers->size() <= mostVotes)
+    if (answers && answers->size() <= mostResampled)
         addPeople(result, places, *answers);
     else if (answers)
         result.notes.push_back(
-            fmt::format("people are not resampled with more than {} votes", mostVotes));
+            fmt::format("people are not resampled with more than {} votes", mostResampled));
     return result;
 }
 

@@ -16,8 +16,8 @@ namespace obscura {
 
 namespace {
 
-constexpr std::size_t mostSteps = 12;   // of a scale that is taken for ordered categories
-constexpr std::size_t mostRows = 50000; // for a model of people
+constexpr std::size_t mostSteps = 12;      // of a scale that is taken for ordered categories
+constexpr std::size_t mostRatings = 50000; // for a model of people
 
 // Of each person the mean rating of each item; NaN where there is none.
 Eigen::MatrixXd meansOf(const Ratings& group) {
@@ -163,7 +163,7 @@ ScaleResult cumulativeLinkOf(const Ratings& group) {
     ScaleResult result = resultOf(group, "logit");
     const auto categories = categoriesOf(group);
     const auto rows = static_cast<Eigen::Index>(group.ratings.size());
-    if (!categories || group.ratings.size() > mostRows) {
+    if (!categories || group.ratings.size() > mostRatings) {
         result.notes.push_back(categories ? "not fitted to so many ratings"
                                           : "everybody gave the same rating, or the scale has too "
                                             "many steps to be categories");

@@ -25,7 +25,7 @@ std::size_t placeIn(const std::vector<std::string>& list, const std::string& nam
     return static_cast<std::size_t>(std::find(list.begin(), list.end(), name) - list.begin());
 }
 
-std::string pText(double p) {
+std::string pLabel(double p) {
     if (p < 0.001)
         return "p < .001";
     const std::string digits = format("{:.{}f}", p, p < 0.1 ? 3 : 2);
@@ -66,7 +66,7 @@ std::string stepMarks(const ScaleResult& result, const std::vector<std::size_t>&
                              differs ? 2 : 1, colour);
             script +=
                 format("set label {} at graph 1.045, first {} font ',7' textcolor rgb '{}'\n",
-                       differs ? gnuplotBold(pText(*step.holm)) : gnuplotText(pText(*step.holm)),
+                       differs ? gnuplotBold(pLabel(*step.holm)) : gnuplotText(pLabel(*step.holm)),
                        static_cast<double>(row) + 0.5, colour);
         }
     return script;

@@ -6,7 +6,7 @@ namespace obscura {
 
 namespace {
 
-const ScaleKind kinds[] = {
+const ScaleKind scaleKindRows[] = {
     {"thurstone", "Scale from pairs", "Thurstone 1927, case V, maximum likelihood",
      "choices between two, three techniques or more", thurstoneScales},
     {"bradley-terry", "Worths from pairs", "Bradley and Terry 1952",
@@ -34,11 +34,11 @@ const ScaleKind kinds[] = {
 
 } // namespace
 
-std::span<const ScaleKind> scaleKinds() { return kinds; }
+std::span<const ScaleKind> scaleKinds() { return scaleKindRows; }
 
 std::vector<Scaled> scalesOf(const ScaleData& data) {
     std::vector<Scaled> scales;
-    for (const ScaleKind& kind : kinds)
+    for (const ScaleKind& kind : scaleKindRows)
         for (ScaleResult& result : kind.run(data))
             scales.push_back({&kind, std::move(result)});
     return scales;

@@ -13,10 +13,6 @@ namespace obscura {
 
 namespace {
 
-constexpr const char* dash = "–";
-
-std::string digits(std::optional<double> value) { return value ? fmt::format("{}", *value) : ""; }
-
 // One line of scales.csv.
 struct Line {
     std::string what, name, other;

@@ -45,7 +45,7 @@ bool isTrialData(const fs::path& path) {
     return fs::is_regular_file(path) && isAnswerTable(path);
 }
 
-int columnNumber(std::string_view name) {
+int answerColumn(std::string_view name) {
     static const std::vector<TableColumn> columns = answerColumns();
     const auto found = std::find_if(columns.begin(), columns.end(),
                                     [&](const TableColumn& column) { return column.name == name; });
@@ -165,7 +165,7 @@ class TableReader {
         if (row.trial.trialKind == "before" || row.trial.trialKind == "after")
             return; // pages around the trials: forms, which are no results
         if (const auto& [column, fault] = faultOf(row); !fault.empty()) {
-            const BadRow bad{{file_, line, columnNumber(column), column}, fault};
+            const BadRow bad{{file_, line, answerColumn(column), column}, fault};
             if (!rules_.lenient)
                 throw Error(bad.place, bad.message + "; --lenient skips it");
             study_.answers.bad.push_back(bad);
@@ -184,7 +184,7 @@ class TableReader {
         for (const Given& given : trial.given)
             if (given.question.text() == row.question) {
                 if (!rules_.duplicates)
-                    throw Error({file_, line, columnNumber("question"), "question"},
+                    throw Error({file_, line, answerColumn("question"), "question"},
                                 fmt::format("\"{}\" of this trial was answered before, in line {}; "
                                             "--allow-duplicates counts the first of such rows and "
                                             "leaves out the others",
@@ -244,7 +244,7 @@ TrialAnswers collectTrials(std::span<const fs::path> data, const AnswerRules& ru
         study.answers.counted.push_back(trial.trial);
     study.isChoice = std::all_of(study.trials.begin(), study.trials.end(), choosesOfTwo);
     const int within = study.answers.leftOut.duplicates; // trials
-    applyRules(study.answers, data, rules, {columnNumber, study.isChoice});
+    applyRules(study.answers, data, rules, {answerColumn, study.isChoice});
     study.answers.leftOut.duplicates += within;
 
     std::vector<AnsweredTrial> all = std::move(study.trials);

@@ -16,7 +16,7 @@ namespace {
 // Conditions that compare the same two techniques at several levels and have votes: all of them
 // and, where other scenes are among them, those of one scene, which differ in nothing but the
 // level.
-std::vector<Group> groupsOf(const std::vector<Tally>& tallies) {
+std::vector<Group> groupedPairs(const std::vector<Tally>& tallies) {
     std::map<std::pair<std::string, std::string>, std::map<std::string, Group>> pairs; // by scene
     for (std::size_t i = 0; i < tallies.size(); ++i)
         if (tallies[i].votes.total() > 0)
@@ -116,7 +116,7 @@ template <typename Result>
 std::vector<StudyTest> ofPeople(const StudyData& data, std::size_t least, std::size_t most,
                                 const Result& result) {
     std::vector<StudyTest> tests;
-    for (const Group& group : groupsOf(data.tallies)) {
+    for (const Group& group : groupedPairs(data.tallies)) {
         if (!data.answers || group.size() < least || group.size() > most)
             continue;
         const AnswerTable complete = completeOf(data, group);
@@ -132,7 +132,7 @@ std::vector<StudyTest> ofPeople(const StudyData& data, std::size_t least, std::s
 template <typename Result>
 std::vector<StudyTest> ofTotals(const StudyData& data, std::size_t least, const Result& result) {
     std::vector<StudyTest> tests;
-    for (const Group& group : groupsOf(data.tallies)) {
+    for (const Group& group : groupedPairs(data.tallies)) {
         if (data.answers || group.size() < least)
             continue;
         StudyTest test = result(votesOf(data, group), group);

@@ -18,8 +18,8 @@ namespace {
 
 // Braces around anything but the name of a number are a mistake in spelling.
 void checkProgress(const std::string& text, const Place& place) {
-    static const std::regex numbers(R"(\{pairs?\})");
-    if (std::regex_replace(text, numbers, "").find_first_of("{}") != std::string::npos)
+    static const std::regex progress(R"(\{pairs?\})");
+    if (std::regex_replace(text, progress, "").find_first_of("{}") != std::string::npos)
         throw Error(place, fmt::format("expected no braces but those of {{pair}} and {{pairs}}, "
                                        "found \"{}\"",
                                        text));

@@ -48,7 +48,7 @@ bool isUtcTime(std::string_view given) {
                       [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
 }
 
-constexpr std::string_view text = "text", some = "text, not empty", flag = "0 or 1",
+constexpr std::string_view anyText = "text", some = "text, not empty", flag = "0 or 1",
                            count = "a whole number >= 1", milliseconds = "a number from 0 to 1e9",
                            whole = "a whole number >= 0", hash = "64 hexadecimal digits";
 
@@ -81,11 +81,11 @@ const Column columns[] = {
      filled<&R::conditionId>},
     {"level", "Complexity level of the lighting", &R::level, some, filled<&R::level>},
     {"scene", "Scene and camera, from the protocol", &R::scene, some, filled<&R::scene>},
-    {"hypothesis", "Hypothesis that the condition tests", &R::hypothesis, text, any},
+    {"hypothesis", "Hypothesis that the condition tests", &R::hypothesis, anyText, any},
     {"technique_a", "Technique of member a", &R::techniqueA, some, filled<&R::techniqueA>},
     {"technique_b", "Technique of member b", &R::techniqueB, some, filled<&R::techniqueB>},
-    {"params_a", "Settings of member a, JSON", &R::paramsA, text, any},
-    {"params_b", "Settings of member b, JSON", &R::paramsB, text, any},
+    {"params_a", "Settings of member a, JSON", &R::paramsA, anyText, any},
+    {"params_b", "Settings of member b, JSON", &R::paramsB, anyText, any},
     {"stim_first", "File shown first", &R::stimFirst, some, filled<&R::stimFirst>},
     {"stim_second", "File shown second", &R::stimSecond, some, filled<&R::stimSecond>},
     {"sha256_first", "SHA-256 of that file", &R::sha256First, hash, digest<&R::sha256First>},

@@ -16,8 +16,8 @@ constexpr glm::vec2 outer{12, 7.5F};     // the inner faces of the outer walls
 constexpr float bay = 3, passage = 2.7F; // between columns; from the arcade's back to the wall
 constexpr float arcade = 0.6F;           // thickness of the lower arcade; its middle is on `court`
 constexpr float courtFloor = -0.45F, galleryFloor = 4.7F, wallTop = 8.6F;
-constexpr float step = 0.32F; // tread of the three steps down to the court
-constexpr float rail = 0.95F; // height of the balustrade
+constexpr float tread = 0.32F; // of the three steps down to the court
+constexpr float rail = 0.95F;  // height of the balustrade
 
 const ArchedWall lowerArch{bay, 1.2F, 3.1F, galleryFloor, arcade, 3.1F};
 const ArchedWall upperArch{bay / 2, 0.56F, galleryFloor + 2.75F,
@@ -136,15 +136,15 @@ void addFloors(Works& works) {
     const glm::vec2 edge = court - 0.5F;
     Outline steps;
     for (int i = 3; i > 0; --i) {
-        const float x = part(i, 1) * step, y = -0.15F * part(i, 1);
+        const float x = part(i, 1) * tread, y = -0.15F * part(i, 1);
         steps.insert(steps.end(), {{x, y}, {x, y + 0.11F}, {x + 0.015F, y + 0.12F}});
         addArc(steps, {x + 0.015F, y + 0.135F}, 0.015F, -60, 90, 4); // the nosing
     }
-    steps.push_back({step - 1, 0}); // as far as the passage's floor
+    steps.push_back({tread - 1, 0}); // as far as the passage's floor
     for (glm::vec2& point : steps)
-        point.x -= step;
+        point.x -= tread;
     works.limestone.add(innerMoulding(steps, edge));
-    works.flagstones.add(floorBetween(-edge + 2 * step, edge - 2 * step, courtFloor));
+    works.flagstones.add(floorBetween(-edge + 2 * tread, edge - 2 * tread, courtFloor));
     works.marble.add(ringFloor(court + 0.5F, 0));
     works.flagstones.add(ringFloor(court - 0.35F, galleryFloor));
 }
@@ -260,7 +260,7 @@ int plain(Scene& scene, const char* name, glm::vec3 colour, float roughness) {
     return static_cast<int>(scene.materials.size()) - 1;
 }
 
-void furnish(Scene& scene, const Works& works) {
+void furnishAtrium(Scene& scene, const Works& works) {
     const auto add = [&](const Shape& shape, Material material, const Canvas& canvas,
                          const Painter& painter, float metres) {
         addMesh(scene, shape, addMaterial(scene, std::move(material), canvas, painter), metres);
@@ -301,7 +301,7 @@ Scene atrium() {
     addVessels(works);
     projectUv(works.ashlar);
     Scene scene;
-    furnish(scene, works);
+    furnishAtrium(scene, works);
     return scene;
 }
 

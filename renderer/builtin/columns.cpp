@@ -42,7 +42,7 @@ Shape flutedShaft(float radius, float height, int flutes) {
     return patch(surface, 6 * flutes, 10, {glm::two_pi<float>() * radius, height});
 }
 
-struct Leaf {
+struct CapitalLeaf {
     float turn;  // degrees
     float width; // radians at its widest
     float foot, height, reach, radius;
@@ -50,7 +50,7 @@ struct Leaf {
 
 // Rises along the bell, then rolls over outwards; lobed edges and a raised midrib. `thickness`
 // gives its back, which is seen from above.
-glm::vec3 leafPoint(const Leaf& leaf, glm::vec2 uv, float thickness) {
+glm::vec3 leafPoint(const CapitalLeaf& leaf, glm::vec2 uv, float thickness) {
     const float side = 2 * uv.x - 1, bend = 0.66F;
     const float t = 1 - std::pow(1 - uv.y, 1.5F); // more rows where it rolls over
     const float roll = glm::radians(190.0F) * std::max(0.0F, t - bend) / (1 - bend);
@@ -67,7 +67,7 @@ glm::vec3 leafPoint(const Leaf& leaf, glm::vec2 uv, float thickness) {
     return {out * std::sin(angle), y, out * std::cos(angle)};
 }
 
-Shape leafShape(const Leaf& leaf) {
+Shape leafShape(const CapitalLeaf& leaf) {
     const float thickness = 0.09F * leaf.radius;
     const glm::vec2 metres(leaf.width * leaf.radius, leaf.height);
     Shape shape = patch([&](glm::vec2 uv) { return leafPoint(leaf, uv, 0); }, 6, 11, metres);

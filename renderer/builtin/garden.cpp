@@ -147,7 +147,7 @@ void addThings(Works& works) {
     }
 }
 
-void furnish(Scene& scene, const Works& works) {
+void furnishGarden(Scene& scene, const Works& works) {
     const auto add = [&](const Shape& shape, Material material, const Canvas& canvas,
                          const Painter& painter) {
         addMesh(scene, shape, addMaterial(scene, std::move(material), canvas, painter),
@@ -208,7 +208,7 @@ Scene garden() {
     addGrass(works);
     addThings(works);
     Scene scene;
-    furnish(scene, works);
+    furnishGarden(scene, works);
     Camera camera; // from the terrace, over table and lawn to the tree
     camera.position = {3.9, 1.6, 3.4};
     camera.target = {-2.0, 0.8, -2.0};

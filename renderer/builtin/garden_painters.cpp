@@ -53,13 +53,13 @@ Painter turf() {
 namespace {
 
 // One leaf from `foot` along the unit vector `axis`.
-struct Leaf {
+struct PaintedLeaf {
     glm::vec2 foot, axis;
     float length, width; // width: half of it, at the widest
 };
 
 // How far inside a leaf, 0 at its edge and 1 on its rib; less than 0 outside.
-float insideLeaf(const Leaf& leaf, glm::vec2 p) {
+float insideLeaf(const PaintedLeaf& leaf, glm::vec2 p) {
     const glm::vec2 away = p - leaf.foot;
     const float t = glm::dot(away, leaf.axis) / leaf.length;
     if (t <= 0 || t >= 1)
@@ -88,10 +88,10 @@ Painter twig(int pairs, float width, glm::vec3 dark, glm::vec3 light) {
             const float t = (static_cast<float>(i) + 0.4F) / static_cast<float>(2 * pairs + 1);
             const float length = tip ? 0.34F : 0.40F - 0.06F * t;
             const float open = side * (1.05F - 0.35F * t + 0.2F * (noise.cell(i, 5) - 0.5F));
-            const Leaf leaf{{0, tip ? 0.62F : 0.04F + 0.66F * t},
-                            {std::sin(open), std::cos(open)},
-                            length,
-                            width * length};
+            const PaintedLeaf leaf{{0, tip ? 0.62F : 0.04F + 0.66F * t},
+                                   {std::sin(open), std::cos(open)},
+                                   length,
+                                   width * length};
             const float inside = insideLeaf(leaf, p);
             if (inside < 0)
                 continue;

@@ -12,19 +12,19 @@ namespace {
 
 using glm::vec3;
 
-constexpr std::array girths{Girth{0.46F, {0.225F, 0.190F}}, Girth{0.60F, {0.212F, 0.172F}},
-                            Girth{0.98F, {0.172F, 0.132F}}, Girth{1.08F, {0.158F, 0.120F}},
-                            Girth{1.28F, {0.195F, 0.138F}}, Girth{1.42F, {0.200F, 0.115F}},
-                            Girth{1.49F, {0.150F, 0.098F}}, Girth{1.52F, {0.085F, 0.078F}}};
+constexpr std::array guardGirths{Girth{0.46F, {0.225F, 0.190F}}, Girth{0.60F, {0.212F, 0.172F}},
+                                 Girth{0.98F, {0.172F, 0.132F}}, Girth{1.08F, {0.158F, 0.120F}},
+                                 Girth{1.28F, {0.195F, 0.138F}}, Girth{1.42F, {0.200F, 0.115F}},
+                                 Girth{1.49F, {0.150F, 0.098F}}, Girth{1.52F, {0.085F, 0.078F}}};
 
 float tunicAt(vec3 p) {
     const float loose = 1 - glm::smoothstep(0.5F, 1.06F, p.y);
     const float depth = 0.002F + 0.048F * loose;
-    float d = gown(p, girths) - depth * folds(angleOf(p) + 1, p.y, 18) - 0.3F * depth;
-    return cut(0.8F * d,
-               0.45F *
-                   (gown(p + vec3(0, 0.03F, 0), girths) + 0.03F + 2 * std::max(0.0F, p.y - 0.7F)),
-               0.01F);
+    float d = gown(p, guardGirths) - depth * folds(angleOf(p) + 1, p.y, 18) - 0.3F * depth;
+    return cut(
+        0.8F * d,
+        0.45F * (gown(p + vec3(0, 0.03F, 0), guardGirths) + 0.03F + 2 * std::max(0.0F, p.y - 0.7F)),
+        0.01F);
 }
 
 float legs(vec3 p) {
@@ -62,7 +62,7 @@ float cloak(vec3 p) { // open in front, fastened on the shoulders
     return std::max(d, 0.8F * opening);
 }
 
-float hair(vec3 p) {
+float guardHair(vec3 p) {
     const vec3 q = p - vec3(0, 1.72F, 0);
     float d = ellipsoid(q - vec3(0, 0.024F, -0.012F), {0.090F, 0.106F, 0.106F});
     d = merge(d, limb(q, {0, -0.02F, -0.06F}, {0, -0.13F, -0.065F}, 0.072F, 0.065F), 0.03F);
@@ -112,7 +112,7 @@ float collar(vec3 p) { // of fur, where the cloak is fastened
 }
 
 float belt(vec3 p) {
-    const float around = gown(p, girths);
+    const float around = gown(p, guardGirths);
     const float strap =
         std::max(std::abs(around - 0.004F) - 0.012F, std::abs(p.y - 1.07F) - 0.028F);
     const vec3 q = p - vec3(0, 1.07F, 0.130F);
@@ -172,7 +172,7 @@ Body guard() {
         {hands, {0, 1.09F, 0.27F}, 0.22F, plain(paint::skin), 0.003F, true},
         {neck, {0, 1.6F, 0}, 0.17F, plain(paint::skin), 0.02F, true},
         {features, {0, 1.72F, 0.02F}, 0.16F, complexion, 0.012F, true},
-        {hair, {0, 1.67F, -0.01F}, 0.24F, plain(brown), 0.004F, true},
+        {guardHair, {0, 1.67F, -0.01F}, 0.24F, plain(brown), 0.004F, true},
         {circlet, {0, 1.76F, -0.01F}, 0.14F, plain(paint::gold), 0.002F, true},
     };
 }

@@ -12,17 +12,18 @@ namespace {
 
 using glm::vec3;
 
-constexpr std::array girths{Girth{0.00F, {0.285F, 0.265F}}, Girth{0.12F, {0.255F, 0.235F}},
-                            Girth{0.50F, {0.205F, 0.180F}}, Girth{0.92F, {0.178F, 0.142F}},
-                            Girth{1.10F, {0.128F, 0.105F}}, Girth{1.28F, {0.158F, 0.122F}},
-                            Girth{1.38F, {0.172F, 0.106F}}, Girth{1.44F, {0.135F, 0.085F}},
-                            Girth{1.475F, {0.060F, 0.060F}}};
+constexpr std::array readerGirths{Girth{0.00F, {0.285F, 0.265F}}, Girth{0.12F, {0.255F, 0.235F}},
+                                  Girth{0.50F, {0.205F, 0.180F}}, Girth{0.92F, {0.178F, 0.142F}},
+                                  Girth{1.10F, {0.128F, 0.105F}}, Girth{1.28F, {0.158F, 0.122F}},
+                                  Girth{1.38F, {0.172F, 0.106F}}, Girth{1.44F, {0.135F, 0.085F}},
+                                  Girth{1.475F, {0.060F, 0.060F}}};
 
 float dress(vec3 p) {
     const float loose = 1 - glm::smoothstep(0.1F, 1.05F, p.y);
     const float depth = 0.003F + 0.055F * loose;
     const float girdle = 0.012F * std::exp(-900 * (p.y - 1.10F) * (p.y - 1.10F));
-    return 0.8F * (gown(p, girths) - depth * folds(angleOf(p), p.y, 15) + girdle) - 0.3F * depth;
+    return 0.8F * (gown(p, readerGirths) - depth * folds(angleOf(p), p.y, 15) + girdle) -
+           0.3F * depth;
 }
 
 // A mantle laid over the left shoulder and drawn across to the right hip, folds along its edge.
@@ -31,7 +32,7 @@ float mantle(vec3 p) {
     const float warp = 2.2F * std::sin(5 * p.x + 3 * p.y) + 1.2F * std::sin(11 * p.x - 7 * p.z);
     const float lines = std::abs(std::sin(24 * slant + warp));
     const float depth = 0.020F + 0.008F * std::sin(7 * p.y + 4 * p.x);
-    float d = gown(p, girths) - 0.026F - depth * std::sqrt(lines + 0.05F);
+    float d = gown(p, readerGirths) - 0.026F - depth * std::sqrt(lines + 0.05F);
     d = std::max(d, 0.6F * (-0.34F - slant));
     d = std::max(d, 0.6F * (slant - 0.34F));
     return 0.8F * std::max(d, p.y - 1.46F);
@@ -47,7 +48,7 @@ float veil(vec3 p) { // a hood that falls on the shoulders
     return cut(d, limb(q, {0, -0.02F, 0.0F}, {0, -0.30F, 0.06F}, 0.07F, 0.10F), 0.02F);
 }
 
-float hair(vec3 p) {
+float readerHair(vec3 p) {
     const vec3 q = p - vec3(0, 1.635F, 0);
     const float d = ellipsoid(q - vec3(0, 0.018F, -0.005F), {0.088F, 0.107F, 0.105F}) +
                     0.003F * std::sin(130 * q.x + 30 * q.y * q.x);
@@ -100,7 +101,7 @@ Body reader() {
         {pages, {0, 1.17F, 0.285F}, 0.23F, script, 0.001F, true},
         {neck, {0, 1.5F, 0}, 0.16F, plain(paint::skin), 0.02F, true},
         {features, {0, 1.63F, 0.02F}, 0.15F, complexion, 0.012F, true},
-        {hair, {0, 1.65F, -0.01F}, 0.12F, plain({0.28F, 0.18F, 0.12F}), 0.004F, true},
+        {readerHair, {0, 1.65F, -0.01F}, 0.12F, plain({0.28F, 0.18F, 0.12F}), 0.004F, true},
         {veil, {0, 1.53F, -0.04F}, 0.33F, plain(paint::linen), 0.004F, true},
     };
 }

@@ -116,7 +116,7 @@ void addBalcony(Works& works) {
     works.leaves.add(palm(11, 0.6F), place * at({-1.2F, 0.26F, -0.05F}, 20));
 }
 
-void furnish(Scene& scene, const Works& works) {
+void furnishRoom(Scene& scene, const Works& works) {
     const auto add = [&](const Shape& shape, Material material, const Canvas& canvas,
                          const Painter& painter) {
         addMesh(scene, shape, addMaterial(scene, std::move(material), canvas, painter),
@@ -167,7 +167,7 @@ Scene room() {
     addBalcony(works);
     projectUv(works.walls);
     Scene scene;
-    furnish(scene, works);
+    furnishRoom(scene, works);
     return scene;
 }
 

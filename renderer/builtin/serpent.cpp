@@ -22,7 +22,7 @@ T spline(T a, T b, T c, T d, float t) {
                    (3.0F * b - a - 3.0F * c + d) * (t * t * t));
 }
 
-glm::vec3 across(glm::vec3 v, glm::vec3 axis) {
+glm::vec3 perpendicular(glm::vec3 v, glm::vec3 axis) {
     return glm::normalize(v - glm::dot(v, axis) * axis);
 }
 
@@ -55,9 +55,10 @@ void Serpent::turnBacks() {
         return glm::normalize(rings_[after].centre - rings_[before].centre);
     };
     for (std::size_t i = 0; i < rings_.size(); ++i)
-        rings_[i].back = across(i > 0 ? rings_[i - 1].back : glm::vec3(0, 1, 0), direction(i));
+        rings_[i].back =
+            perpendicular(i > 0 ? rings_[i - 1].back : glm::vec3(0, 1, 0), direction(i));
     const glm::vec3 forward = direction(rings_.size() - 1);
-    const glm::vec3 up = across({0, 1, 0}, forward), back = rings_.back().back;
+    const glm::vec3 up = perpendicular({0, 1, 0}, forward), back = rings_.back().back;
     const float twist = std::atan2(glm::dot(glm::cross(back, up), forward), glm::dot(back, up));
     for (std::size_t i = 0; i < rings_.size(); ++i) {
         const float angle = twist * static_cast<float>(i) / static_cast<float>(rings_.size() - 1);

@@ -14,7 +14,7 @@ namespace obscura {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::span<const float, 3> span3(const glm::vec3& v) {
     return std::span<const float, 3>(glm::value_ptr(v), 3);

@@ -11,7 +11,7 @@ namespace obscura {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Real spherical harmonics, orders 0 to 2, in the order of shaders/light.frag.
 std::array<double, 9> basis(const glm::dvec3& d) {

@@ -9,9 +9,9 @@ using nlohmann::json;
 
 namespace {
 
-class Checker : private GltfJson {
+class MaterialChecker : private GltfJson {
   public:
-    explicit Checker(const GltfJson& values) : GltfJson(values) {}
+    explicit MaterialChecker(const GltfJson& values) : GltfJson(values) {}
 
     void run() const {
         each("images", [&](const json& o, const std::string& at) { checkImage(o, at); });
@@ -113,6 +113,6 @@ class Checker : private GltfJson {
 
 } // namespace
 
-void checkGltfMaterials(const GltfJson& values) { Checker(values).run(); }
+void checkGltfMaterials(const GltfJson& values) { MaterialChecker(values).run(); }
 
 } // namespace obscura

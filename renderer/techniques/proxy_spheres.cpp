@@ -6,13 +6,13 @@ namespace obscura {
 
 namespace {
 
-constexpr glm::vec4 nothing[] = {glm::vec4(0)}; // because a buffer must not be empty
+constexpr glm::vec4 noSphere[] = {glm::vec4(0)}; // because a buffer must not be empty
 
 } // namespace
 
 ProxySpheres::ProxySpheres(std::span<const glm::vec4> spheres)
     : count_(static_cast<int>(spheres.size())),
-      buffer_(std::as_bytes(spheres.empty() ? nothing : spheres),
+      buffer_(std::as_bytes(spheres.empty() ? noSphere : spheres),
               gl::UniformBuffer::Kind::storage) {}
 
 const ProxySpheres& SceneSpheres::operator()() const {

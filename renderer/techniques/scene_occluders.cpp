@@ -4,7 +4,7 @@ namespace obscura {
 
 namespace {
 
-constexpr Occluder nothing[] = {{glm::vec4(0), glm::vec4(0), glm::vec4(0)}}; // for empty buffers
+constexpr Occluder noOccluder[] = {{glm::vec4(0), glm::vec4(0), glm::vec4(0)}}; // for empty buffers
 
 gl::Texture textureOf(const VoxelGrid& grid) {
     std::vector<gl::VolumeLevel> levels;
@@ -23,7 +23,7 @@ gl::UniformBuffer placeOf(const VoxelGrid& grid) {
 
 OccluderBuffer::OccluderBuffer(std::span<const Occluder> occluders)
     : count_(static_cast<int>(occluders.size())),
-      buffer_(std::as_bytes(occluders.empty() ? nothing : occluders),
+      buffer_(std::as_bytes(occluders.empty() ? noOccluder : occluders),
               gl::UniformBuffer::Kind::storage) {}
 
 VoxelTexture::VoxelTexture(std::span<const Occluder> occluders, float side)
