@@ -102,9 +102,9 @@ install_missing() {
 
 # Up to eight sources as one: from nothing, that takes half of the time of one by one, most of which goes into reading
 # headers. A build folder that was configured otherwise stays as it is (CONTRIBUTING.md).
-unity=(-DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8)
 configure() {
-    step "configuring" count_nothing cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release "${unity[@]}"
+    step "configuring" count_nothing cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+        -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=8
 }
 
 # build_targets TARGET...: configures once, then builds; nothing to do takes a second.
@@ -116,6 +116,6 @@ build_targets() {
 # The same by clang with sanitizers, in a folder of its own.
 build_sanitized() {
     [ -f "$sanitized/build.ninja" ] ||
-        step "configuring" count_nothing cmake -S "$root" --preset sanitize "${unity[@]}"
+        step "configuring" count_nothing cmake -S "$root" --preset sanitize
     step "building (sanitizers)" count_ninja ninja -C "$sanitized" "$@"
 }
