@@ -70,9 +70,9 @@ fault metals-lose-light renderer/shaders/light.frag \
 fault code-forgotten renderer/render.cpp \
     's|std::string\(code\)|std::string(code.substr(0, 0))|' \
     generate_gl_test 'Generate.RendersAgainWhenTheRenderingCodeChanges'
-fault index-past-the-end renderer/scene/gltf_check.cpp \
+fault index-past-the-end renderer/scene/gltf_json.cpp \
     's|value\.get<double>\(\) >= static_cast<double>\(size\)|value.get<double>() > static_cast<double>(size)|' \
-    renderer_test 'Gltf.*'
+    scene_test 'Gltf*'
 
 # Of files.
 fault file-not-flushed base/files.cpp \
@@ -98,7 +98,7 @@ fault unseen-characters protocols/reader/cell_faults.cpp \
     's#seen != name\)#seen.empty())#' \
     protocols_test '*BadValue*'
 fault surface-unchecked image/canvas.cpp \
-    's|std::max\(width, height\) > mostPixels|false|' \
+    's|std::max\(width, height\) > largestSurface|false|' \
     image_test 'Canvas.*'
 fault pages-forgotten image/canvas.cpp \
     's|tallestPage = 16000|tallestPage = 160000|' \
@@ -111,10 +111,10 @@ fault missed-threshold experiment/timing_count.cpp \
 fault key-before-onset experiment/trial.cpp \
     's/visible_ != screen_ \|\| event\.time < since_/visible_ != screen_/' \
     experiment_test 'Trial.*'
-fault shown-before-events experiment/session.cpp \
+fault shown-before-events experiment/play.cpp \
     's|anew = machine\.isOn\(\)|anew = machine.isOn() \|\| machine.screen() >= 0|' \
     experiment_test 'OrderOfEventsTest.*'
-fault redraw-taken-for-shown experiment/session.cpp \
+fault redraw-taken-for-shown experiment/play.cpp \
     's|anew = machine\.isOn\(\)|anew = machine.isOn() \&\& machine.screen() < -1|' \
     experiment_test 'OrderOfEventsTest.*'
 fault minimum-view-lost experiment/trial.cpp \
@@ -172,10 +172,10 @@ fault quest-cells inference/quest_plus.cpp \
     's|\(1 - confidence\) / 2|(1 - confidence)|' \
     inference_test 'QuestPlus.*'
 fault gain-of-choice inference/pair_choice.cpp \
-    's|- noise / weights|- 0.5 * noise / weights|' \
+    's|-\(t \* t \+ tails|-(0.5 * t * t + tails|' \
     inference_test 'PairChoice.*'
 fault least-gain inference/pair_choice.cpp \
-    's|gains\[static_cast<std::size_t>\(one\)\] >|gains[static_cast<std::size_t>(one)] <|' \
+    's|std::max_element\(reductions|std::min_element(reductions|' \
     inference_test 'PairChoice.*'
 fault unit-lost experiment/row.cpp \
     's|row\.view2Ms = 1000 \* |row.view2Ms = |' \
@@ -191,17 +191,17 @@ fault signal-unheard experiment/signals.cpp \
     's#if \(noted\)#if (noted \&\& !heeded[0])#' \
     signals_e2e_test '*'
 
-fault break-unchecked experiment/presenter.cpp \
-    's|^ +restPage\(texts_\),$||' \
+fault break-unchecked experiment/screens.cpp \
+    's|instructionsPage\(texts\), restPage\(texts\),|instructionsPage(texts),|' \
     presenter_e2e_test '*ABreaksText*'
-fault images-off-screen experiment/presenter.cpp \
-    's#boxes\.front\(\)\.x < 0 \|\| height > window\.height\(\)#boxes.front().x < 0#' \
+fault images-off-screen experiment/screens.cpp \
+    's#boxes\.front\(\)\.x < 0 \|\| height > height_#boxes.front().x < 0#' \
     presenter_e2e_test '*BesideEachOther*'
 fault torn-table-kept experiment/recorder.cpp \
     's|file\.append\(whole\.substr\(content\.size\(\)\)\)|content.size()|' \
     experiment_test 'RecorderTest.*:Killed.*'
 fault finish-not-journalled experiment/recorder.cpp \
-    's|journal_\.append\(entry\("trial_finished"|if (trial % 2) &|' \
+    's|keep\("trial_finished"|if (trial % 2) &|' \
     experiment_test 'Killed.*'
 fault half-seen-forgotten experiment/broken_session.cpp \
     's|broken\.history\.push_back\(std::move\(past\)\);|if (one.answers) broken.history.push_back(std::move(past));|' \
@@ -221,7 +221,7 @@ fault phases-out-of-the-design protocols/reader/design.cpp \
 
 # Of statistics and choices.
 fault votes-swapped analysis/votes.cpp \
-    's|choseB \? votes\.b : votes\.a|choseB ? votes.a : votes.b|' \
+    's|choseB \? tally->votes\.b : tally->votes\.a|choseB ? tally->votes.a : tally->votes.b|' \
     analysis_test 'TallyVotes.*'
 fault one-sided inference/counts.cpp \
     's|2 \* binomialLower\(std|binomialLower(std|' \
@@ -236,12 +236,12 @@ fault rounded-scores inference/paired.cpp \
     's|score - scores\[origin\]|score - 0 * scores[origin]|' \
     inference_test 'PairedTrend.*'
 fault other-images analysis/votes.cpp \
-    's|\(aFirst \? pair->a : pair->b\)|(aFirst ? pair->b : pair->a)|' \
+    's|row\.aFirst \? a : b|row.aFirst ? b : a|' \
     analysis_test 'TallyWithStimuli.*'
 fault front-of-equals bench/sweep/pareto.cpp \
     's|one\.milliseconds <= other\.milliseconds|one.milliseconds < other.milliseconds|' \
     sweep_test 'ParetoFront.*:DominatedBy.*'
-fault caution-silent analysis/findings.cpp \
+fault caution-silent analysis/summary.cpp \
     's#if \(!caution\.empty\(\)\)#if (caution.size() > 100000)#' \
     analysis_program_test 'Program.Cautions*'
 fault look-unscaled experiment/eyes.cpp \
