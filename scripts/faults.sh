@@ -60,7 +60,7 @@ fault emission-unmatched renderer/render.cpp \
     generate_gl_test 'Generate.EmissionIsPartOfWhatMustMatch'
 fault transform-turned renderer/scene/scene.cpp \
     's|glm::mat2\(c, -s, s, c\)|glm::mat2(c, s, -s, c)|' \
-    renderer_test 'TextureUse.*'
+    scene_test 'TextureUse.*'
 fault holes-elsewhere renderer/reference/ray_scene.cpp \
     's|use\.at\(vertex\)|vertex.uv|' \
     reference_gl_test '*HolesOfMaskedMaterials'
@@ -225,7 +225,7 @@ fault votes-swapped analysis/votes.cpp \
     analysis_test 'TallyVotes.*'
 fault one-sided inference/counts.cpp \
     's|2 \* binomialLower\(std|binomialLower(std|' \
-    inference_test 'Frequencies/Thesis.*'
+    inference_test 'Counts/Thesis.*'
 fault one-minus-cdf inference/tails.cpp \
     's|cdf\(complement\(boost::math::chi_squared\(df\), statistic\)\)|1 - cdf(boost::math::chi_squared(df), statistic)|' \
     inference_test 'Tails.*'
