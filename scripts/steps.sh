@@ -100,7 +100,7 @@ install_missing() {
     step "installing ${#missing[@]} packages" count_apt install_packages "${missing[@]}"
 }
 
-# Up to eight sources as one: from nothing, that takes half of the time of one by one, most of which goes into reading
+# Up to eight sources as one: from nothing, that saves a quarter of the time of one by one, most of which goes into reading
 # headers. A build folder that was configured otherwise stays as it is (CONTRIBUTING.md).
 configure() {
     step "configuring" count_nothing cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
