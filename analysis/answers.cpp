@@ -124,13 +124,6 @@ void requireOneStudy(const std::vector<Answer>& answers) {
                                first.row.studyId, at(first), answer.row.studyId));
 }
 
-std::string folded(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z')
-            c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
 int columnNumber(std::string_view name) {
     const auto columns = responseColumns();
     const auto found = std::find_if(columns.begin(), columns.end(),
@@ -407,6 +400,13 @@ Answers readAll(std::span<const fs::path> files, bool lenient) {
 }
 
 } // namespace
+
+std::string folded(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z')
+            c = static_cast<char>(c - 'A' + 'a');
+    return text;
+}
 
 Answers collectAnswers(std::span<const fs::path> data, const AnswerRules& rules) {
     Answers answers = readAll(filesOf(data), rules.lenient);

@@ -59,4 +59,7 @@ struct TableForm {
 void applyRules(Answers& answers, std::span<const std::filesystem::path> data,
                 const AnswerRules& rules, const TableForm& form);
 
+// With Latin letters in lower case: names that differ in no more are one person's, written twice.
+std::string folded(std::string text);
+
 } // namespace obscura

@@ -15,10 +15,6 @@ namespace obscura {
 
 namespace {
 
-const Condition& conditionAt(const Protocol& protocol, int condition) {
-    return protocol.conditions[static_cast<std::size_t>(condition)];
-}
-
 // "" where it was interrupted, or left open.
 std::string answerOf(const Protocol& protocol, const PastTrial& past) {
     const auto answer = past.answers.find(protocol.ordering.adaptive.answer);
@@ -39,7 +35,7 @@ Items itemsOf(const Protocol& protocol, std::span<const int> conditions) {
     std::map<std::tuple<std::string, std::string, std::string>, int> numbers;
     Items items;
     for (const int index : conditions) {
-        const Condition& condition = conditionAt(protocol, index);
+        const Condition& condition = conditionOf(protocol, index);
         const auto numberOf = [&](const std::string& shown) {
             const auto role = std::find_if(condition.roles.begin(), condition.roles.end(),
                                            [&](const Role& one) { return one.name == shown; });
@@ -92,6 +88,10 @@ std::vector<int> batchOf(const PairPosterior& posterior, const Items& items, Ran
 
 } // namespace
 
+const Condition& conditionOf(const Protocol& protocol, int condition) {
+    return protocol.conditions[static_cast<std::size_t>(condition)];
+}
+
 std::optional<int> questCondition(const Protocol& protocol, std::span<const int> conditions,
                                   std::span<const PastTrial> past) {
     const Adaptive& adaptive = protocol.ordering.adaptive;
@@ -112,7 +112,7 @@ std::optional<int> questCondition(const Protocol& protocol, std::span<const int>
         const auto level = std::find(ladder.begin(), ladder.end(), one.trial.condition);
         if (!answer.empty())
             quest.answer(static_cast<int>(level - ladder.begin()),
-                         answer == conditionAt(protocol, one.trial.condition).correct);
+                         answer == conditionOf(protocol, one.trial.condition).correct);
     }
     if (isNarrow(adaptive, quest.estimate(QuestParameter::threshold).width()))
         return std::nullopt;

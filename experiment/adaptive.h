@@ -24,4 +24,7 @@ std::optional<int> informationCondition(const Protocol& protocol, int slot,
                                         std::span<const int> conditions,
                                         std::span<const PastTrial> past);
 
+// Counted from 0.
+const Condition& conditionOf(const Protocol& protocol, int condition);
+
 } // namespace obscura

@@ -15,10 +15,6 @@ namespace obscura {
 
 namespace {
 
-const Condition& conditionOf(const Protocol& protocol, int condition) {
-    return protocol.conditions[static_cast<std::size_t>(condition)];
-}
-
 int numberOf(const Protocol& protocol, const std::string& id) {
     const auto at = std::find_if(protocol.conditions.begin(), protocol.conditions.end(),
                                  [&](const Condition& one) { return one.id == id; });

@@ -1,5 +1,6 @@
 #include "analysis/export/study_data.h"
 
+#include "analysis/answers.h"
 #include "base/files.h"
 
 #include <fmt/format.h>
@@ -25,13 +26,6 @@ bool isAlphanumeric(char c) {
 bool isId(const std::string& id) {
     return !id.empty() && id.size() <= longestId &&
            std::all_of(id.begin(), id.end(), isAlphanumeric);
-}
-
-std::string inLowerCase(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z')
-            c = static_cast<char>(c - 'A' + 'a');
-    return text;
 }
 
 const Response& keyOf(const Response& row) { return row; }
@@ -178,7 +172,7 @@ class Reader {
         for (const SessionData& session : data_.sessions)
             for (const std::string& id :
                  {session.participant, session.participant + "-" + session.session}) {
-                const auto [first, isNew] = seen.try_emplace(inLowerCase(id), id);
+                const auto [first, isNew] = seen.try_emplace(folded(id), id);
                 if (first->second != id)
                     throw Error(
                         {folder_.string(), 0, 0, "participant_id"},
